@@ -1,0 +1,240 @@
+"""Every number of the method, one frozen model per stage: bounds, unit, meaning.
+
+The same declaration validates ``--set stage.field=value`` and YAML files, prints the resolved configuration
+of a run, fills the settings form of the application and the table in ``docs/settings.md``.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from floorplan_core.errors import UsageError
+
+
+def setting(default: Any, unit: str, description: str, **bounds: Any) -> Any:
+    """A pydantic field with a unit; ``bounds`` are pydantic's ge, gt, le, lt."""
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
+
+
+class Section(BaseModel):
+    """Settings of one stage; frozen, unknown names are errors."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class InputConfig(Section):
+    """How the file is read."""
+
+    unit: Literal["auto", "m", "cm", "mm", "ft"] = setting("auto", "", "Unit of the file's coordinates.")
+    up: Literal["auto", "x", "y", "z", "-x", "-y", "-z"] = setting("auto", "", "The file's up axis.")
+    max_range: float = setting(30.0, "m", "Points farther from their sensor are dropped.", gt=0.5, le=500)
+    min_range: float = setting(0.05, "m", "Points nearer to their sensor are dropped.", ge=0, le=5)
+
+
+class FrameConfig(Section):
+    """Manhattan frame: gravity and yaw."""
+
+    cell: float = setting(0.25, "m", "Cells in which normals are fitted.", ge=0.1, le=2)
+    planarity: float = setting(0.15, "", "Largest ratio of a cell's thickness to its width.", gt=0, le=1)
+    tolerance_deg: float = setting(
+        5.0, "deg", "A normal this near to an axis supports the frame.", gt=0, le=20
+    )
+    yaw_step_deg: float = setting(0.05, "deg", "Step of the search for the sharpest walls.", gt=0, le=1)
+    min_support: float = setting(
+        0.3, "", "Below this share of supporting wall there is no Manhattan frame.", ge=0, le=1
+    )
+    yaw_deg: float | None = setting(
+        None, "deg", "Force the yaw of the walls instead of estimating it.", ge=-180, le=180
+    )
+
+
+class VoxelConfig(Section):
+    """Voxel map and surfels."""
+
+    size: float = setting(0.1, "m", "Side of a voxel of the occupancy map (paper: 0.1 m).", ge=0.02, le=1)
+    min_misses: int = setting(1, "rays", "Rays through a voxel that make it free.", ge=1, le=100)
+    hit_ratio: float = setting(
+        0.15, "", "Share of hits among hits and misses from which a voxel is occupied.", gt=0, le=1
+    )
+
+
+class SegmentsConfig(Section):
+    """Layout segments: observed patches of structural surfaces."""
+
+    window: float = setting(
+        0.35, "m", "Side of the window in which the direction of a surface is fitted.", ge=0.15, le=2
+    )
+    angle_deg: float = setting(
+        15.0, "deg", "Largest angle of a surface to the axis of its facing.", gt=0, le=44
+    )
+    join_gap: float = setting(
+        0.4, "m", "Patches of one surface nearer than this along it are one segment.", ge=0, le=5
+    )
+    offset_tolerance: float = setting(
+        0.06, "m", "Patches of one segment differ less in their offset.", gt=0, le=0.5
+    )
+    min_length: float = setting(0.3, "m", "Shorter segments are dropped.", ge=0, le=5)
+    min_area: float = setting(0.15, "m2", "Segments of less observed surface are dropped.", ge=0, le=10)
+    furniture_height: float = setting(
+        2.05, "m", "A surface that reaches above this is no furniture.", ge=0.5, le=4
+    )
+    ceiling_gap: float = setting(
+        0.35, "m", "A surface that ends less than this below the ceiling touches it.", ge=0, le=2
+    )
+
+
+class PlanesConfig(Section):
+    """The minimum set of layout planes."""
+
+    tolerance: float = setting(
+        0.05, "m", "An observed offset may differ this much from its plane (3 sigma).", gt=0, le=0.5
+    )
+    min_support: float = setting(0.4, "m2", "Planes of less observed surface are not paired.", ge=0, le=20)
+    bridge: float = setting(
+        2.5,
+        "m",
+        "Unseen stretches between two seen parts of one wall are wall up to this length.",
+        ge=0,
+        le=20,
+    )
+
+
+class OccupancyConfig(Section):
+    """The slice of the voxel map that gives the universe F_h."""
+
+    slice_height: float | None = setting(
+        None, "m", "Height h above the floor; none: the height that shows most free cells.", gt=0, le=10
+    )
+    min_component: float = setting(
+        0.5, "m2", "Smaller patches of free cells do not drive the cover.", ge=0, le=100
+    )
+    indoor_share: float = setting(
+        0.1, "", "Share of a patch that must lie under seen ceiling or over seen floor.", ge=0, le=1
+    )
+
+
+class DoorsConfig(Section):
+    """Doors by histogram, smoothed gradient and matched filter."""
+
+    crop_height: float = setting(
+        2.0, "m", "Points above are left out of the histogram (paper: 2 m).", gt=0.5, le=4
+    )
+    bin: float = setting(0.05, "m", "Width of a histogram bin.", ge=0.01, le=0.5)
+    smoothing: float = setting(
+        0.05, "m", "Standard deviation of the Gaussian whose derivative gives the gradient.", gt=0, le=1
+    )
+    aperture: float = setting(1.0, "m", "Width that the filter is matched to (paper: 1 m).", gt=0.3, le=4)
+    min_width: float = setting(0.6, "m", "Narrower openings are no doors (paper: 0.8 m).", gt=0.2, le=4)
+    max_width: float = setting(
+        1.3, "m", "Wider openings are no doors but openings (paper: 1.2 m).", gt=0.3, le=4
+    )
+    max_opening: float = setting(
+        4.0, "m", "Widest opening below a lintel that still separates two regions.", gt=0.5, le=10
+    )
+    min_response: float = setting(
+        0.25, "", "Smallest response of the matched filter, 1 being a clean aperture.", ge=0, le=1
+    )
+    min_confidence: float = setting(0.35, "", "Doors of less confidence are not reported.", ge=0, le=1)
+    max_thickness: float = setting(
+        0.6, "m", "Two faces farther apart than this are not one wall.", gt=0.02, le=2
+    )
+
+
+class CandidatesConfig(Section):
+    """Candidate rectangles and their pruning."""
+
+    min_side: float = setting(1.0, "m", "Shorter sides are pruned (paper: 1 m).", ge=0.1, le=20)
+    tolerance: float = setting(
+        0.15, "m", "Walls and doors this near to a side do not lie in the interior.", ge=0, le=1
+    )
+    max_ratio: float = setting(
+        20.0,
+        "",
+        "Rectangles of more total cells a free cell are pruned; what only they cover is reported.",
+        ge=1,
+        le=10000,
+    )
+
+
+class CoverConfig(Section):
+    """Weighted set cover of the free space."""
+
+    solver: Literal["greedy", "exact"] = setting(
+        "greedy", "", "greedy (paper) or exact (integer program, HiGHS)."
+    )
+    time_limit: float = setting(60.0, "s", "Longest run of the exact solver.", gt=0, le=3600)
+
+
+class RegionsConfig(Section):
+    """Regions: connected unions of chosen rectangles."""
+
+    risk: float = setting(
+        1000.0, "", "Regions of more total cells a free cell are dropped (paper: 1000).", ge=1, le=1e6
+    )
+    min_area: float = setting(0.8, "m2", "Smaller regions are dropped.", ge=0, le=100)
+    sliver: float = setting(0.3, "m", "Parts narrower than this are not part of a region.", ge=0, le=2)
+
+
+class LabelsConfig(Section):
+    """Rooms and corridors."""
+
+    classifier: str = setting("paper", "", "Name of the region classifier (see `floorcast plugins`).")
+    max_room_perimeter: float = setting(
+        60.0, "m", "A longer boundary is a corridor (paper: 60 m).", gt=0, le=10000
+    )
+    max_room_turning: float = setting(
+        1.0, "", "A larger turning distance to the square is a corridor (paper: 1).", gt=0, le=100
+    )
+
+
+class Config(Section):
+    """All settings. ``Config()`` holds the defaults; ``Config.load`` reads YAML; ``with_values`` overrides by name."""
+
+    input: InputConfig = InputConfig()
+    frame: FrameConfig = FrameConfig()
+    voxels: VoxelConfig = VoxelConfig()
+    segments: SegmentsConfig = SegmentsConfig()
+    planes: PlanesConfig = PlanesConfig()
+    occupancy: OccupancyConfig = OccupancyConfig()
+    doors: DoorsConfig = DoorsConfig()
+    candidates: CandidatesConfig = CandidatesConfig()
+    cover: CoverConfig = CoverConfig()
+    regions: RegionsConfig = RegionsConfig()
+    labels: LabelsConfig = LabelsConfig()
+
+    @classmethod
+    def load(cls, path: Path) -> Config:
+        """Read a YAML file of ``stage: {field: value}``; what is not named keeps its default."""
+        try:
+            data = yaml.safe_load(path.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise UsageError(f"Cannot read the configuration {path.name}: {error.strerror}.") from error
+        except (yaml.YAMLError, UnicodeDecodeError) as error:
+            raise UsageError(f"{path.name} is not valid YAML: {str(error).splitlines()[0]}.") from error
+        return cls.from_dict({} if data is None else data)
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Config:
+        """Validate nested values; a :class:`UsageError` names the first setting that is wrong."""
+        if not isinstance(data, dict):
+            raise UsageError("A configuration must be a table of stages, like 'doors: {max_width: 1.2}'.")
+        try:
+            return cls.model_validate(data)
+        except ValidationError as error:
+            first = error.errors()[0]
+            name = ".".join(str(part) for part in first["loc"])
+            raise UsageError(f"Setting {name}: {first['msg']} (given {first['input']!r}).") from error
+
+    def with_values(self, assignments: dict[str, str]) -> Config:
+        """A copy with ``{"stage.field": "value"}`` applied; values are parsed as YAML scalars."""
+        data = self.model_dump()
+        for name, text in assignments.items():
+            stage, _, field = name.partition(".")
+            if stage not in data or field not in data[stage]:
+                raise UsageError(f"There is no setting {name!r}; 'floorcast settings' lists them all.")
+            data[stage][field] = yaml.safe_load(text) if isinstance(text, str) else text
+        return type(self).from_dict(data)

@@ -1,0 +1,32 @@
+"""The nouns of the field as frozen dataclasses: what the stages hand to each other."""
+
+from floorplan_core.model.cover import CandidateSet, RectangleCover
+from floorplan_core.model.floor_plan import FloorPlan, RegionSide, WallPoints
+from floorplan_core.model.layout import Door, Facing, LayoutPlane, LayoutSegment, WallProfile
+from floorplan_core.model.manhattan import ManhattanFrame
+from floorplan_core.model.occupancy import FREE, OCCUPIED, UNOBSERVED, OccupancyGrid
+from floorplan_core.model.reconstruction import LocalFrame, PointChunk, Reconstruction, Trajectory
+from floorplan_core.model.region import Region
+
+__all__ = [
+    "FREE",
+    "OCCUPIED",
+    "UNOBSERVED",
+    "CandidateSet",
+    "Door",
+    "Facing",
+    "FloorPlan",
+    "LayoutPlane",
+    "LayoutSegment",
+    "LocalFrame",
+    "ManhattanFrame",
+    "OccupancyGrid",
+    "PointChunk",
+    "Reconstruction",
+    "RectangleCover",
+    "Region",
+    "RegionSide",
+    "Trajectory",
+    "WallPoints",
+    "WallProfile",
+]

@@ -1,0 +1,129 @@
+"""Layout segments, layout planes, wall profiles and doors (section 3 of the paper and its input, SL-LMS).
+
+A *facing* is the way a surface's normal points, into the free space that it bounds. Planes that face east or
+west are perpendicular to x: their offset is an x coordinate and they run along y; north and south likewise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+
+class Facing(IntEnum):
+    """The way a surface looks: EAST +x, WEST -x, NORTH +y, SOUTH -y."""
+
+    EAST = 0
+    WEST = 1
+    NORTH = 2
+    SOUTH = 3
+
+    @property
+    def axis(self) -> int:
+        """0 where the plane is perpendicular to x, 1 where perpendicular to y."""
+        return self.value // 2
+
+    @property
+    def sign(self) -> int:
+        """+1 or -1: the sign of the normal along its axis."""
+        return 1 - 2 * (self.value % 2)
+
+    @property
+    def opposite(self) -> Facing:
+        """The facing of the surface that looks back at this one."""
+        return Facing(self.value ^ 1)
+
+
+@dataclass(frozen=True)
+class LayoutSegment:
+    """An observed, bounded patch of a structural surface."""
+
+    id: str
+    facing: Facing
+    offset: float  # metres along the facing's axis, manhattan frame
+    start: float  # metres along the other axis, manhattan frame
+    end: float  # metres, end > start
+    z_min: float  # metres above the floor
+    z_max: float  # metres above the floor
+    area: float  # m2 of surface that was really observed
+    points: int  # supporting points
+    residual: float  # metres, 95 % of the supporting points lie closer to the offset than this
+    sigma: float  # metres, standard error of the offset
+    plane: str = ""  # id of the layout plane that explains it
+    structural: bool = True  # False: furniture; kept for pictures, never paired, never blocking
+    evidence: tuple[str, ...] = ()  # words: why it is structural, or why not
+
+    @property
+    def length(self) -> float:
+        """Metres along the surface."""
+        return self.end - self.start
+
+    def line(self) -> Float:
+        """(2, 2) end points in the plan, manhattan frame."""
+        a, b = (self.offset, self.start), (self.offset, self.end)
+        return np.array([a, b]) if self.facing.axis == 0 else np.array([a[::-1], b[::-1]])
+
+
+@dataclass(frozen=True)
+class WallProfile:
+    """What was seen along a plane, in equal bins of ``step`` metres from ``start`` (all arrays (B,))."""
+
+    start: float  # metres along the plane
+    step: float  # metres
+    low: NDArray[np.float64]  # points' surface seen below 2 m, as a fraction of the wall height there, 0 to 1
+    high: NDArray[np.float64]  # the same above 2 m (lintels, walls above furniture)
+    through: NDArray[np.float64]  # 0 to 1: share of the heights at which free space crosses the plane here
+
+
+@dataclass(frozen=True)
+class LayoutPlane:
+    """An axis-aligned plane of infinite extent that explains one or more segments."""
+
+    id: str
+    facing: Facing
+    offset: float  # metres along the facing's axis, manhattan frame
+    segments: tuple[str, ...] = ()  # ids
+    support: float = 0.0  # m2 observed
+    residual: float = 0.0  # metres, 95 % of the supporting points lie closer than this
+    speculated: bool = False  # True: no surface was seen here; it closes a room whose wall is missing
+    profile: WallProfile | None = None
+    walls: NDArray[np.float64] = field(
+        default_factory=lambda: np.zeros((0, 2))
+    )  # (K, 2) runs along the plane that
+    # are wall: seen, above a lintel, or hidden between two seen parts; these block rectangles
+    observed: NDArray[np.float64] = field(
+        default_factory=lambda: np.zeros((0, 2))
+    )  # (K, 2) the runs really seen
+
+
+@dataclass(frozen=True)
+class Door:
+    """An opening in a wall; a child of the planes of the wall's faces."""
+
+    id: str
+    planes: tuple[str, ...]  # ids of the layout planes it is cut into (one or both faces of the wall)
+    axis: int  # axis of the wall's normal: 0 the wall runs along y, 1 along x
+    offset: float  # metres along ``axis``: the middle of the wall
+    start: float  # metres along the wall
+    end: float  # metres, end > start
+    thickness: float = 0.0  # metres between the wall's faces; 0 where only one was seen
+    height: float | None = None  # metres from the floor to the lintel, where seen
+    kind: str = "door"  # "door" or "opening" (wider than a door, or without a lintel)
+    confidence: float = 0.5  # 0 to 1
+    evidence: tuple[str, ...] = ()  # words
+    connects: tuple[str, ...] = ()  # ids of the one or two regions that it joins
+
+    @property
+    def width(self) -> float:
+        """Metres."""
+        return self.end - self.start
+
+    def line(self) -> Float:
+        """(2, 2) end points in the plan, manhattan frame."""
+        a, b = (self.offset, self.start), (self.offset, self.end)
+        return np.array([a, b]) if self.axis == 0 else np.array([a[::-1], b[::-1]])

@@ -1,0 +1,34 @@
+"""The Manhattan frame: the one rotation after which walls lie along x and y and gravity along -z."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ManhattanFrame:
+    """Rotation from the local frame to the Manhattan frame, and how well the data supports it."""
+
+    rotation: Float  # (3, 3) local to manhattan, proper orthonormal
+    yaw: float  # radians in (-pi/4, pi/4], of the walls in the local frame
+    tilt: float  # radians, angle between the local z axis and gravity
+    support: float  # 0 to 1, share of the wall area whose normal is within 5 degrees of an axis
+    wall_area: float  # m2 of vertical surface that the estimate rests on
+    floor_z: float  # metres, manhattan frame
+    ceiling_z: float | None  # metres, manhattan frame; None where no ceiling was seen
+
+    def from_manhattan(self, points: Float) -> Float:
+        """(N, 2) or (N, 3) manhattan coordinates to (N, 3) local ones; 2-D points lie on the floor."""
+        pts = np.asarray(points, dtype=np.float64).reshape(-1, np.shape(points)[-1])
+        if pts.shape[1] == 2:
+            pts = np.column_stack([pts, np.full(len(pts), self.floor_z)])
+        return pts @ self.rotation
+
+    def to_manhattan(self, points: Float) -> Float:
+        """(N, 3) local coordinates to (N, 3) manhattan ones."""
+        return np.asarray(points, dtype=np.float64) @ self.rotation.T
