@@ -1,41 +1,132 @@
-"""Polygons to cells and back, on a regular grid (row = y, column = x)."""
+"""Polygons to cells and back, on a regular grid (row = y, column = x).
+
+Both directions are exact: a mask holds the cells whose centre lies inside (half open: a centre on a left or
+lower edge is inside, on a right or upper edge outside, so that adjacent polygons never share a cell), and the
+polygon of a mask is the union of its cells. Cost: edges times rows; boundary corners.
+"""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+Bool = NDArray[np.bool_]
 
-def polygon_mask(
-    polygon: Any, origin: NDArray[np.float64], cell: float, shape: tuple[int, ...]
-) -> NDArray[np.bool_]:
-    """(ny, nx) True where the centre of a cell lies inside ``polygon`` (shapely, metres)."""
+
+def polygon_mask(polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]) -> Bool:
+    """(ny, nx) True where the centre of a cell lies inside ``polygon`` (shapely, metres), holes left out."""
     ny, nx = shape
-    mask = np.zeros((ny, nx), dtype=bool)
-    x0, y0, x1, y1 = polygon.bounds
-    i0, i1 = (int(np.clip(np.floor((v - origin[0]) / cell) + d, 0, nx)) for v, d in ((x0, 0), (x1, 1)))
-    j0, j1 = (int(np.clip(np.floor((v - origin[1]) / cell) + d, 0, ny)) for v, d in ((y0, 0), (y1, 1)))
-    if i1 <= i0 or j1 <= j0:
-        return mask
-    xs = origin[0] + cell * (np.arange(i0, i1) + 0.5)
-    ys = origin[1] + cell * (np.arange(j0, j1) + 0.5)
-    gx, gy = np.meshgrid(xs, ys)
-    shapely.prepare(polygon)
-    mask[j0:j1, i0:i1] = shapely.contains_xy(polygon, gx, gy)
-    return mask
+    crossings = np.zeros((ny, nx + 1), dtype=bool)
+    for x0, y0, x1, y1 in _edges(polygon):
+        low, high = min(y0, y1), max(y0, y1)
+        rows = np.arange(
+            *(int(np.clip(np.ceil((v - origin[1]) / cell - 0.5), 0, ny)) for v in (low, high))
+        )
+        if len(rows) == 0:
+            continue
+        y = origin[1] + cell * (rows + 0.5)
+        x = x0 + (y - y0) * ((x1 - x0) / (y1 - y0))
+        columns = np.clip(np.ceil((x - origin[0]) / cell - 0.5), 0, nx).astype(np.int64)
+        crossings[rows, columns] ^= True  # a row crosses an edge once, so no index repeats
+    return np.logical_xor.accumulate(crossings[:, :nx], axis=1)
 
 
-def cells_to_polygon(mask: NDArray[np.bool_], origin: NDArray[np.float64], cell: float) -> Any:
-    """Shapely MultiPolygon that is the union of the True cells of ``mask``."""
-    runs = []
-    for iy, row in enumerate(mask):
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], row, [False]]).astype(np.int8)))
-        runs += [(a, iy, b, iy + 1) for a, b in edges.reshape(-1, 2)]
-    if not runs:
+def _edges(polygon: Any) -> list[tuple[float, float, float, float]]:
+    """x0, y0, x1, y1 of every edge of every ring."""
+    edges: list[tuple[float, float, float, float]] = []
+    for part in getattr(polygon, "geoms", [polygon]):
+        for ring in (part.exterior, *part.interiors):
+            c = shapely.get_coordinates(ring)
+            edges += [tuple(e) for e in np.hstack([c[:-1], c[1:]]).tolist()]
+    return edges
+
+
+def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
+    """Shapely MultiPolygon that is the union of the True cells of ``mask``: one valid polygon per 4-connected patch."""
+    if not mask.any():
         return shapely.MultiPolygon()
-    box = np.array(runs, dtype=np.float64) * cell + np.tile(origin, 2)
-    union = shapely.union_all(shapely.box(*box.T))
-    return union if union.geom_type == "MultiPolygon" else shapely.MultiPolygon([union])
+    labels = np.pad(_label(mask), 1)
+    ix, iy, left_is_north = _corners(labels)
+    rings, homes = [], []
+    for ring in _rings(ix, iy, left_is_north):
+        x, y = ix[ring], iy[ring]
+        rings.append(shapely.LinearRing(np.column_stack([x, y]) * cell + origin))
+        homes.append(_home(labels, x, y))
+    return shapely.MultiPolygon(_assemble(rings, homes))
+
+
+def _label(mask: Bool) -> NDArray[np.int32]:
+    """4-connected patches of ``mask``, numbered from 1 in row order."""
+    from scipy.ndimage import label
+
+    return np.asarray(label(mask)[0], dtype=np.int32)
+
+
+def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:
+    """Lattice corners of the boundary: x, y, and whether the edge to the west joins the one to the north.
+
+    Where two cells touch at a corner only, the corner is listed twice, once for each of the two rings that
+    meet there; cells of one patch are joined across it, cells of two patches are kept apart: so every ring is simple.
+    """
+    sw, se, nw, ne = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
+    filled = (sw > 0).astype(np.int8) + (se > 0) + (nw > 0) + (ne > 0)
+    rising = (filled == 2) & (sw > 0) & (ne > 0)
+    falling = (filled == 2) & (nw > 0) & (se > 0)
+    west_north = (rising & (sw == ne)) | (falling & (nw != se))
+    times = ((filled == 1) | (filled == 3)) + 2 * (rising | falling)
+    iy, ix = np.nonzero(times)
+    count = times[iy, ix]
+    return np.repeat(ix, count), np.repeat(iy, count), np.repeat(west_north[iy, ix], count)
+
+
+def _rings(ix: Int, iy: Int, west_north: Bool) -> list[Int]:
+    """Closed walks over the corners: in a row they pair up from the left, in a column from below."""
+    n = len(ix)
+    second = np.zeros(n, dtype=bool)  # the copy of a double corner that owns the edge to the east
+    second[1:] = (ix[1:] == ix[:-1]) & (iy[1:] == iy[:-1])
+    across = np.lexsort((second, ix, iy))
+    upright = np.lexsort((second ^ west_north, iy, ix))
+    beside, above = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    for partner, order in ((beside, across), (above, upright)):
+        partner[order[0::2]], partner[order[1::2]] = order[1::2], order[0::2]
+    return _walk(beside.tolist(), above.tolist())
+
+
+def _walk(beside: list[int], above: list[int]) -> list[Int]:
+    """Follow horizontal and vertical edges in turn until each ring closes."""
+    left = [True] * len(beside)
+    rings = []
+    for start in range(len(beside)):
+        ring, at = [], start
+        while left[at]:
+            other = beside[at]
+            left[at] = left[other] = False
+            ring += [at, other]
+            at = above[other]
+        if ring:
+            rings.append(np.array(ring))
+    return rings
+
+
+def _home(labels: NDArray[np.int32], x: Int, y: Int) -> int:
+    """The patch that a ring bounds: of the two cells beside its first horizontal edge, the filled one."""
+    column = min(int(x[0]), int(x[1])) + 1
+    return int(max(labels[y[0], column], labels[y[0] + 1, column]))
+
+
+def _assemble(rings: list[Any], homes: list[int]) -> list[Any]:
+    """One polygon for each patch: its largest ring is the shell, the others are holes."""
+    patches: dict[int, list[Any]] = defaultdict(list)
+    for ring, home in zip(rings, homes, strict=True):
+        patches[home].append(shapely.Polygon(ring))
+    polygons = []
+    for home in sorted(patches):
+        shell, *holes = sorted(patches[home], key=lambda p: -p.area)
+        polygons.append(shapely.Polygon(shell.exterior, [h.exterior for h in holes]))
+    return shapely.orient_polygons(polygons).tolist()
