@@ -149,7 +149,6 @@ def _grid(rooms: Sequence[RoomSpec], doors: Sequence[Door], cell: float) -> Occu
     origin = np.floor(np.array(everything[:2]) / cell) * cell - 10 * cell
     nx, ny = (np.ceil((np.array(everything[2:]) - origin) / cell).astype(int) + 10).tolist()
     states = np.full((ny, nx), UNOBSERVED, dtype=np.uint8)
-    gx, gy = np.meshgrid(origin[0] + cell * (np.arange(nx) + 0.5), origin[1] + cell * (np.arange(ny) + 0.5))
     seen = shapely.union_all([_seen_part(room) for room in rooms])
     openings = shapely.union_all(
         [shapely.LineString(d.line()).buffer(d.thickness / 2 + cell, cap_style="flat") for d in doors]

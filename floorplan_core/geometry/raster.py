@@ -25,9 +25,7 @@ def polygon_mask(polygon: Any, origin: Float, cell: float, shape: tuple[int, ...
     crossings = np.zeros((ny, nx + 1), dtype=bool)
     for x0, y0, x1, y1 in _edges(polygon):
         low, high = min(y0, y1), max(y0, y1)
-        rows = np.arange(
-            *(int(np.clip(np.ceil((v - origin[1]) / cell - 0.5), 0, ny)) for v in (low, high))
-        )
+        rows = np.arange(*(int(np.clip(np.ceil((v - origin[1]) / cell - 0.5), 0, ny)) for v in (low, high)))
         if len(rows) == 0:
             continue
         y = origin[1] + cell * (rows + 0.5)
@@ -48,7 +46,7 @@ def _edges(polygon: Any) -> list[tuple[float, float, float, float]]:
 
 
 def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
-    """Shapely MultiPolygon that is the union of the True cells of ``mask``: one valid polygon per 4-connected patch."""
+    """Shapely MultiPolygon that is the union of the True cells: one valid polygon per 4-connected patch."""
     if not mask.any():
         return shapely.MultiPolygon()
     labels = np.pad(_label(mask), 1)
@@ -72,7 +70,7 @@ def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:
     """Lattice corners of the boundary: x, y, and whether the edge to the west joins the one to the north.
 
     Where two cells touch at a corner only, the corner is listed twice, once for each of the two rings that
-    meet there; cells of one patch are joined across it, cells of two patches are kept apart: so every ring is simple.
+    meet there. Cells of one patch are joined across it, cells of two patches kept apart: every ring is simple.
     """
     sw, se, nw, ne = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
     filled = (sw > 0).astype(np.int8) + (se > 0) + (nw > 0) + (ne > 0)

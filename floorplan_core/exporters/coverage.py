@@ -1,0 +1,79 @@
+"""Region polygons that stay disjoint when their coordinates are rounded.
+
+Rounding moves each vertex on its own, so two regions stay apart only where they share vertices. Hence, in the
+manhattan frame: coordinates that nearly agree are made equal, and every vertex that lies on an edge of another
+region becomes a vertex of that edge too. After that, shared edges are pairs of equal vertices, whatever
+rotation and rounding follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+# Metres. Faces nearer than this would cross when both are rounded to 0.1 mm; they are exported as one.
+MERGE = 5e-4
+
+
+def matched(polygons: Sequence[Any]) -> list[Any]:
+    """The same polygons with equal vertices along shared edges (shapely Polygons, counter-clockwise shells)."""
+    merged = _merge_coordinates(list(polygons))
+    vertices = np.unique(shapely.get_coordinates(merged), axis=0)
+    return [_rebuild(p, lambda ring: _insert(ring, vertices)) for p in shapely.orient_polygons(merged)]
+
+
+def rounded(polygon: Any, transform: Callable[[Float], Float], decimals: int) -> Any:
+    """``polygon`` after ``transform`` ((N, 2) to (N, 2)), rounded, without repeated vertices."""
+    return _rebuild(polygon, lambda ring: _without_repeats(np.round(transform(ring), decimals)))
+
+
+def _merge_coordinates(polygons: list[Any]) -> Any:
+    """Snap each coordinate to the smallest one of its group; groups are at most ``MERGE`` wide."""
+    coordinates = shapely.get_coordinates(polygons)
+    for axis in range(2):
+        values, inverse = np.unique(coordinates[:, axis], return_inverse=True)
+        coordinates[:, axis] = _snap_sorted(values)[inverse]
+    return shapely.set_coordinates(np.array(polygons, dtype=object), coordinates)
+
+
+def _snap_sorted(values: Float) -> Float:
+    snapped = values.copy()
+    first = 0
+    for i in range(1, len(values)):
+        if values[i] - values[first] > MERGE:
+            first = i
+        snapped[i] = values[first]
+    return snapped
+
+
+def _rebuild(polygon: Any, change: Callable[[Float], Float]) -> Any:
+    """A polygon of the changed rings, each (N, 2) with its last vertex equal to its first."""
+    shell = change(shapely.get_coordinates(polygon.exterior))
+    return shapely.Polygon(shell, [change(shapely.get_coordinates(h)) for h in polygon.interiors])
+
+
+def _insert(ring: Float, vertices: Float) -> Float:
+    """The ring with all ``vertices`` that lie inside its edges, in order."""
+    parts = []
+    for a, b in zip(ring[:-1], ring[1:], strict=True):
+        edge = b - a
+        length = float(np.hypot(*edge))
+        if length == 0:
+            continue
+        along = (vertices - a) @ edge / length
+        across = (vertices - a) @ np.array([-edge[1], edge[0]]) / length
+        on = (np.abs(across) < MERGE / 1000) & (along > MERGE / 2) & (along < length - MERGE / 2)
+        parts += [a[None], vertices[on][np.argsort(along[on])]]
+    return np.vstack([*parts, ring[:1]])
+
+
+def _without_repeats(ring: Float) -> Float:
+    keep = np.ones(len(ring), dtype=bool)
+    keep[1:] = np.any(ring[1:] != ring[:-1], axis=1)
+    return ring[keep]

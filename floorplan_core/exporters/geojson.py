@@ -1,0 +1,207 @@
+"""plan.geojson: the plan for other programs. The names of features and properties are a contract.
+
+Coordinates are metres of the input's world frame with 0.1 mm resolution; lengths and areas are those of the
+plan before rounding. Regions stay disjoint after rounding (see :mod:`floorplan_core.exporters.coverage`).
+The same plan always gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.exporters.coverage import matched, rounded
+from floorplan_core.model import Door, FloorPlan, LayoutPlane, LayoutSegment, Region, RegionSide
+
+Float = NDArray[np.float64]
+Json = dict[str, Any]
+
+DECIMALS = 4  # metres: 0.1 mm
+MATRIX_DECIMALS = 12
+INSET = 2e-4  # metres: predicted space keeps this far inside its region, more than rounding can move it
+
+
+class GeoJsonExporter:
+    """Writes ``plan.geojson``."""
+
+    name = "GeoJSON"
+    suffixes: tuple[str, ...] = (".geojson", ".json")
+    description = "Regions, doors, planes, segments and predicted space for GIS, scripts and robots."
+
+    def write(self, plan: FloorPlan, path: Path) -> None:
+        """Write ``plan`` to ``path`` as UTF-8, one feature a line."""
+        path.write_text(geojson_text(plan), encoding="utf-8", newline="\n")
+
+
+def geojson_text(plan: FloorPlan) -> str:
+    """The file's text: the head, then one line for each feature, so that versions can be compared by line."""
+    document = plan_to_geojson(plan)
+    lines = ",\n".join(_dump(f) for f in document["features"])
+    head = _dump(document["floorcast"])
+    return f'{{"type": "FeatureCollection",\n"floorcast": {head},\n"features": [\n{lines}\n]}}\n'
+
+
+def plan_to_geojson(plan: FloorPlan) -> Json:
+    """The plan as a FeatureCollection of plain Python values."""
+    polygons = matched([r.polygon for r in plan.regions]) if plan.regions else []
+    features = [_region(plan, r, p) for r, p in zip(plan.regions, polygons, strict=True)]
+    features += [_door(plan, door) for door in plan.doors]
+    features += [_plane(plan, plane) for plane in plan.planes]
+    features += [_segment(plan, segment) for segment in plan.segments]
+    features.append(_speculated(plan, polygons))
+    return {"type": "FeatureCollection", "floorcast": _head(plan), "features": features}
+
+
+def _dump(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _head(plan: FloorPlan) -> Json:
+    from floorplan_core import __version__
+
+    return {
+        "version": __version__,
+        "units": "metre",
+        "frame": "world",
+        "manhattan_from_world": _clean(plan.manhattan_from_world, MATRIX_DECIMALS).tolist(),
+        "slice_height_m": _metres(plan.grid.slice_height),
+        "storey": plan.storey,
+        "source": plan.source,
+        "frame_support": _metres(plan.frame.support),
+        "floor_z_m": _metres(plan.frame.floor_z + float(plan.local_frame.shift[2])),
+    }
+
+
+def _region(plan: FloorPlan, region: Region, polygon: Any) -> Json:
+    properties = {
+        "kind": "region",
+        "name": region.name,
+        "label": region.label,
+        "area_m2": _metres(region.area),
+        "perimeter_m": _metres(region.perimeter),
+        "turning_distance": _metres(region.turning_distance),
+        "free_cells": int(region.free_cells),
+        "total_cells": int(region.total_cells),
+        "speculated_fraction": _metres(region.speculated_fraction),
+        "speculated_sides": sum(side.speculated for side in region.sides),
+        "doors": list(region.doors),
+        "confidence": _metres(region.confidence),
+        "sides": [_side(plan, side) for side in region.sides],
+    }
+    properties |= {} if region.height is None else {"height_m": _metres(region.height)}
+    return _feature(region.id, _polygon(plan, polygon), properties)
+
+
+def _side(plan: FloorPlan, side: RegionSide) -> Json:
+    return {
+        "from_to": _points(plan, np.array([side.start, side.end])),
+        "length_m": _metres(side.length),
+        "plane": side.plane,
+        "observed": _metres(side.observed),
+        "speculated": bool(side.speculated),
+    }
+
+
+def _door(plan: FloorPlan, door: Door) -> Json:
+    properties = {
+        "kind": "door",
+        "door_kind": door.kind,
+        "width_m": _metres(door.width),
+        "connects": list(door.connects),
+        "confidence": _metres(door.confidence),
+        "evidence": list(door.evidence),
+        "thickness_m": _metres(door.thickness),
+        "planes": list(door.planes),
+    }
+    properties |= {} if door.height is None else {"height_m": _metres(door.height)}
+    return _feature(door.id, _line(plan, door.line()), properties)
+
+
+def _plane(plan: FloorPlan, plane: LayoutPlane) -> Json:
+    x0, y0, x1, y1 = plan_extent(plan)
+    o = plane.offset
+    ends = [[o, y0], [o, y1]] if plane.facing.axis == 0 else [[x0, o], [x1, o]]
+    properties = {
+        "kind": "layout_plane",
+        "facing": plane.facing.name.lower(),
+        "offset_m": _metres(plane.offset),
+        "support_m2": _metres(plane.support),
+        "residual_m": _metres(plane.residual),
+        "segments": list(plane.segments),
+        "speculated": bool(plane.speculated),
+    }
+    return _feature(plane.id, _line(plan, np.array(ends)), properties)
+
+
+def _segment(plan: FloorPlan, segment: LayoutSegment) -> Json:
+    properties = {
+        "kind": "layout_segment",
+        "plane": segment.plane,
+        "height_range_m": [_metres(segment.z_min), _metres(segment.z_max)],
+        "facing": segment.facing.name.lower(),
+        "structural": bool(segment.structural),
+        "residual_m": _metres(segment.residual),
+        "evidence": list(segment.evidence),
+    }
+    return _feature(segment.id, _line(plan, segment.line()), properties)
+
+
+def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
+    """Predicted space, clipped to just inside the regions, so that no rounding lets it out."""
+    inside = shapely.union_all(shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre"))
+    clipped = _only_polygons(shapely.intersection(plan.speculated(), inside))
+    moved = [rounded(p, plan.to_world, DECIMALS) for p in clipped if p.area > INSET]
+    valid = [q for p in moved for q in _only_polygons(p if p.is_valid else shapely.make_valid(p))]
+    properties = {"kind": "speculated", "area_m2": _metres(sum(p.area for p in clipped))}
+    coordinates = [_rings(p) for p in shapely.orient_polygons(valid)]
+    return _feature("speculated", {"type": "MultiPolygon", "coordinates": coordinates}, properties)
+
+
+def _only_polygons(geometry: Any) -> list[Any]:
+    """The polygons of a geometry; points and lines, left over by clipping, are dropped."""
+    return [p for p in shapely.get_parts(geometry) if p.geom_type == "Polygon"]
+
+
+def plan_extent(plan: FloorPlan) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 of all regions (of the grid where there are none), metres, manhattan frame."""
+    if not plan.regions:
+        return plan.grid.extent
+    x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in plan.regions]).tolist()
+    return x0, y0, x1, y1
+
+
+def _feature(ident: str, geometry: Json, properties: Json) -> Json:
+    return {"type": "Feature", "id": ident, "geometry": geometry, "properties": properties}
+
+
+def _polygon(plan: FloorPlan, polygon: Any) -> Json:
+    return {"type": "Polygon", "coordinates": _rings(rounded(polygon, plan.to_world, DECIMALS))}
+
+
+def _rings(polygon: Any) -> list[list[list[float]]]:
+    """GeoJSON rings of a polygon that is already rounded: counter-clockwise shell, clockwise holes."""
+    oriented = shapely.orient_polygons(polygon)
+    return [_clean(np.array(r.coords), DECIMALS).tolist() for r in (oriented.exterior, *oriented.interiors)]
+
+
+def _line(plan: FloorPlan, ends: Float) -> Json:
+    return {"type": "LineString", "coordinates": _points(plan, ends)}
+
+
+def _points(plan: FloorPlan, points: Float) -> list[list[float]]:
+    moved: list[list[float]] = _clean(plan.to_world(points), DECIMALS).tolist()
+    return moved
+
+
+def _clean(values: Float, decimals: int) -> Float:
+    """Rounded, without negative zeros, which would make equal plans differ in bytes."""
+    return np.round(values, decimals) + 0.0
+
+
+def _metres(value: float) -> float:
+    return float(_clean(np.float64(value), DECIMALS))
