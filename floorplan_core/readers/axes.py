@@ -1,0 +1,208 @@
+"""Which axis of a file is up, and in which unit it counts: guessed from a sample, stated, never silent.
+
+Up is the axis along which points lie in two flat outer layers (floor and ceiling), along which the building is
+low, and along which the sensor's path stays level. The unit is the one that makes storey height, extent and
+sensor height those of a building. Every term is a log-likelihood with a cap, so that no single oddity decides.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.model import Trajectory
+from floorplan_core.readers.layers import Layers, find_layers
+from floorplan_core.units import METRES_PER_UNIT, UNIT_NAMES, up_rotation
+
+Float = NDArray[np.float64]
+
+LAYER_WEIGHT = 6.0  # of the strength of the layers (0 to 1)
+LOW_WEIGHT = 1.0  # of ln(extent of the others / extent along the axis)
+LEVEL_WEIGHT = 2.0  # of ln(path's spread along the others / along the axis)
+UPRIGHT_WEIGHT = 3.0  # of the sensor's own vertical, where only one of its axes stays constant
+LEVEL_FLOOR = 0.02  # a path is never more level than this share of its length
+MIN_PATH = 0.03  # of the cloud's extent: a shorter path says nothing about level
+UPSIDE_DOWN_RATIO = (
+    2.5  # this many times more clutter under the "ceiling" than over the "floor" turns it over
+)
+
+
+@dataclass(frozen=True)
+class Typical:
+    """A log-normal belief about a length in metres; ``cap`` bounds what an odd value can cost."""
+
+    centre: float
+    sigma: float  # of the natural logarithm
+    cap: float
+
+    def score(self, value: float) -> float:
+        """Log-likelihood, 0 at the centre."""
+        if not value > 0:
+            return 0.0
+        return -min(self.cap, 0.5 * (math.log(value / self.centre) / self.sigma) ** 2)
+
+
+STOREY = Typical(2.8, 0.3, 12.0)  # floor to ceiling
+HEIGHT = Typical(3.5, 0.7, 6.0)  # of everything, where no ceiling shows
+EXTENT = Typical(20.0, 1.3, 8.0)  # longer side of the plan
+SENSOR = Typical(1.1, 0.5, 2.5)  # of the sensor above the floor
+SPEED = Typical(0.5, 0.9, 1.5)  # metres a second of whoever carries it
+PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # how often files come in each unit
+
+
+@dataclass(frozen=True)
+class AxisGuess:
+    """Up axis and unit with the sentences that say why."""
+
+    up: str
+    unit: str
+    sentences: tuple[str, ...]
+
+
+def guess_axes(points: Float, trajectory: Trajectory | None, unit: str, up: str) -> AxisGuess:
+    """Decide what is "auto"; ``points`` (N, 3) finite, N > 0, ``trajectory`` in the same file coordinates."""
+    layers = [find_layers(points[:, axis]) for axis in range(3)]
+    up_guess = guess_up(points, layers, trajectory) if up == "auto" else up
+    unit_guess = guess_unit(points, layers, trajectory, up_guess) if unit == "auto" else unit
+    sentences = (_up_sentence(up, up_guess), _unit_sentence(unit, unit_guess, layers, up_guess))
+    return AxisGuess(up_guess, unit_guess, sentences)
+
+
+def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None) -> str:
+    """ "x", "y", "z", "-x", "-y" or "-z"; ties go to z, then y."""
+    extents = np.array([layer.high - layer.low for layer in layers])
+    if extents.max() <= 0:
+        return "z"
+    extents = np.maximum(extents, 1e-3 * extents.max())
+    scores = np.array([LAYER_WEIGHT * layer.strength for layer in layers])
+    scores += LOW_WEIGHT * _log_ratio_to_others(extents)
+    scores += _level_scores(trajectory, float(extents.max()))
+    upright = _upright(trajectory)
+    scores += UPRIGHT_WEIGHT * np.abs(upright)
+    axis = max((2, 1, 0), key=lambda a: scores[a])
+    down = _is_upside_down(points[:, axis], layers[axis], float(upright[axis]))
+    return ("-" if down else "") + "xyz"[axis]
+
+
+def guess_unit(points: Float, layers: list[Layers], trajectory: Trajectory | None, up: str) -> str:
+    """ "m", "cm", "mm" or "ft": what makes the sizes those of a building."""
+    axis, sign = "xyz".index(up[-1]), -1.0 if up[0] == "-" else 1.0
+    plan = max(layers[a].high - layers[a].low for a in range(3) if a != axis)
+    storey = storey_height(layers[axis])
+    tall = layers[axis].high - layers[axis].low
+    floor = layers[axis].low if sign > 0 else -layers[axis].high
+    sensor = 0.0
+    speed = 0.0
+    if trajectory is not None:
+        heights = sign * trajectory.origins[:, axis]
+        positions = sign * layers[axis].positions
+        below = positions[positions < np.median(heights)]
+        sensor = float(np.median(heights)) - float(below.max() if len(below) else floor)
+        speed = _speed(trajectory)
+
+    def score(unit: str) -> float:
+        size = METRES_PER_UNIT[unit]
+        vertical = STOREY.score(storey * size) if storey else HEIGHT.score(tall * size)
+        return (
+            PRIOR[unit]
+            + vertical
+            + EXTENT.score(plan * size)
+            + SENSOR.score(sensor * size)
+            + SPEED.score(speed * size)
+        )
+
+    return max(("m", "mm", "cm", "ft"), key=score)
+
+
+def storey_height(layers: Layers) -> float:
+    """Median of the larger gaps between neighbouring layers, file units; 0 where there is no pair."""
+    gaps = np.diff(layers.positions)
+    return float(np.median(gaps[gaps >= 0.5 * gaps.max()])) if len(gaps) else 0.0
+
+
+def _log_ratio_to_others(sizes: Float) -> Float:
+    """(3,) ln(geometric mean of the other two / size)."""
+    logs = np.log(sizes)
+    return np.asarray((logs.sum() - logs) / 2 - logs)
+
+
+def _level_scores(trajectory: Trajectory | None, extent: float) -> Float:
+    """(3,) how much more level the path is along each axis than along the others."""
+    if trajectory is None or len(trajectory) < 3:
+        return np.zeros(3)
+    spread = np.ptp(trajectory.origins, axis=0)
+    if spread.max() < MIN_PATH * extent:
+        return np.zeros(3)
+    spread = np.maximum(spread, LEVEL_FLOOR * spread.max())
+    return LEVEL_WEIGHT * _log_ratio_to_others(spread)
+
+
+def _upright(trajectory: Trajectory | None) -> Float:
+    """(3,) file direction that one axis of the sensor keeps while the others turn: its up; else zero.
+
+    Lidars have z up; cameras have y down, x right and z forward.
+    """
+    if trajectory is None or len(trajectory) < 3:
+        return np.zeros(3)
+    means = trajectory.T_world_sensor[:, :3, :3].mean(axis=0)
+    steady = np.linalg.norm(means, axis=0)
+    if steady[2] > 0.95 and max(steady[0], steady[1]) < 0.9:
+        return np.asarray(means[:, 2])
+    if steady[1] > 0.9 and max(steady[0], steady[2]) < 0.85:
+        return np.asarray(-means[:, 1])
+    return np.zeros(3)
+
+
+def _is_upside_down(values: Float, layers: Layers, upright: float) -> bool:
+    """True where "up" points down: the sensor hangs so, or the clutter stands on the other layer."""
+    if abs(upright) > 0.7:
+        return upright < 0
+    if len(layers.positions) == 0:
+        return False
+    if len(layers.positions) == 1:  # a floor alone has everything above it, a ceiling alone nothing
+        position = layers.positions[0]
+        return bool(position > 0.5 * (layers.low + layers.high) and layers.outside == 0.0) and (
+            layers.shares[0] > 0.3
+        )
+    bottom, top = layers.positions[0], layers.positions[-1]
+    height = top - bottom
+    margin = 0.08 * height
+    low = np.count_nonzero((values > bottom + margin) & (values < bottom + 0.35 * height))
+    high = np.count_nonzero((values < top - margin) & (values > top - 0.35 * height))
+    return bool(high > UPSIDE_DOWN_RATIO * max(low, 1))
+
+
+def _speed(trajectory: Trajectory) -> float:
+    """Median of distance over time between rows, file units a second; 0 where it cannot be told."""
+    seconds = np.diff(trajectory.stamps)
+    moved = np.linalg.norm(np.diff(trajectory.origins, axis=0), axis=1)
+    good = (seconds > 0) & (moved > 0)
+    return float(np.median(moved[good] / seconds[good])) if good.any() else 0.0
+
+
+def _up_sentence(asked: str, up: str) -> str:
+    if asked != "auto":
+        return f"The file's {up} axis is up, as asked."
+    return (
+        f"The file's {up} axis is taken as up (flat layers, low extent, level path); force it with input.up."
+    )
+
+
+def _unit_sentence(asked: str, unit: str, layers: list[Layers], up: str) -> str:
+    if asked != "auto":
+        return f"Coordinates are in {UNIT_NAMES[unit]}, as asked."
+    axis = layers["xyz".index(up[-1])]
+    storey = storey_height(axis)
+    size = METRES_PER_UNIT[unit]
+    what = (
+        f"floor to ceiling is {storey * size:.2f} m"
+        if storey
+        else f"the height is {(axis.high - axis.low) * size:.2f} m"
+    )
+    return f"Coordinates are taken as {UNIT_NAMES[unit]} ({what}); force it with input.unit."
+
+
+__all__ = ["AxisGuess", "guess_axes", "guess_unit", "guess_up", "storey_height", "up_rotation"]

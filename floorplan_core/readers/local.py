@@ -1,0 +1,72 @@
+"""File coordinates to local ones: metres, z up, without a large offset; float32 wherever that keeps millimetres."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.model import LocalFrame, Trajectory
+
+Float = NDArray[np.float64]
+
+LIMIT = 1e7  # metres from the file's origin, and from the survey's middle 1 % of that: farther is no survey
+SPREAD_LIMIT = np.float32(1e5)  # metres from the local origin
+SHIFT_FROM = 1000.0  # metres: float32 resolves 0.06 mm there
+
+
+def choose_shift(points: Float) -> Float:
+    """(3,) whole metres near the middle of (N, 3) points; zero along axes that are near the origin anyway."""
+    middle = np.round(np.median(points, axis=0))
+    return np.where(np.abs(middle) > SHIFT_FROM, middle, 0.0) + 0.0
+
+
+def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float | None) -> NDArray[np.float32]:
+    """(N, 3) float32 local coordinates.
+
+    Column by column for the frames that readers make (their rotations only swap axes); in float64 only
+    where a shift is subtracted or the file has doubles.
+    """
+    if T_file_sensor is not None:
+        return _moved(points, frame, T_file_sensor)
+    plain = frame.scale == 1.0 and not frame.shift.any() and frame.up == "z"
+    if plain and points.dtype == np.float32:
+        return points
+    out = np.empty(points.shape, dtype=np.float32)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for axis in range(3):
+            source = int(np.argmax(np.abs(frame.rotation[axis])))
+            factor = frame.scale * frame.rotation[axis, source]
+            column = points[:, source]
+            if frame.shift[axis]:
+                out[:, axis] = column.astype(np.float64) * factor - frame.shift[axis]
+            else:
+                out[:, axis] = column if factor == 1.0 else column * column.dtype.type(factor)
+    return out
+
+
+def _moved(points: NDArray[Any], frame: LocalFrame, T: Float) -> NDArray[np.float32]:
+    """Points of a sensor's frame: one affine map, built in float64, so that float32 sees small numbers only."""
+    matrix = frame.scale * frame.rotation @ T[:3, :3]
+    offset = frame.scale * frame.rotation @ T[:3, 3] - frame.shift
+    with np.errstate(over="ignore", invalid="ignore"):
+        return (points @ matrix.T.astype(points.dtype) + offset.astype(points.dtype)).astype(np.float32)
+
+
+def keep_finite(points: NDArray[np.float32]) -> NDArray[np.bool_] | None:
+    """(N,) which points are usable; None where all are (the usual case costs two reductions)."""
+    if len(points) == 0:
+        return None
+    with np.errstate(invalid="ignore"):
+        if points.min() >= -SPREAD_LIMIT and points.max() <= SPREAD_LIMIT:  # False for NaN
+            return None
+        return np.asarray((np.abs(points) <= SPREAD_LIMIT).all(axis=1))
+
+
+def local_trajectory(trajectory: Trajectory, frame: LocalFrame) -> Trajectory:
+    """Poses of file coordinates in the local frame; the sensor's own axes stay as they are."""
+    poses = trajectory.T_world_sensor.copy()
+    poses[:, :3, :3] = frame.rotation @ poses[:, :3, :3]
+    poses[:, :3, 3] = frame.to_local(trajectory.origins)
+    return Trajectory(trajectory.stamps, poses)

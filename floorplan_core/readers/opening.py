@@ -1,0 +1,137 @@
+"""Open a survey: look at what the path really is, find the reader by content, say clearly what is wrong."""
+
+from __future__ import annotations
+
+import stat
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from floorplan_core.config import InputConfig
+from floorplan_core.errors import FloorPlanError, InputError
+from floorplan_core.model import Reconstruction
+from floorplan_core.observer import Observer
+from floorplan_core.plugins import Reader, ReadOptions
+from floorplan_core.readers.identify import identify
+
+if TYPE_CHECKING:
+    from floorplan_core.plugins import PluginRegistry
+
+HEAD_BYTES = 4096
+
+
+def builtin_readers() -> tuple[Reader, ...]:
+    """The readers of the formats that need nothing but numpy."""
+    from floorplan_core.readers.ply import PlyReader
+
+    return (PlyReader(),)
+
+
+def open_survey(
+    path: Path | str,
+    trajectory: Path | str | None = None,
+    config: InputConfig | None = None,
+    observer: Observer | None = None,
+    registry: PluginRegistry | None = None,
+) -> Reconstruction:
+    """Open a file or folder with the reader that knows its content best.
+
+    ``trajectory`` names the poses where they do not lie beside the cloud. Raises :class:`InputError` with
+    one sentence for anything that cannot be read or is not what it claims.
+    """
+    path = Path(path)
+    options = ReadOptions(config or InputConfig(), None if trajectory is None else Path(trajectory))
+    observer = observer or Observer()
+    head = read_head(path)
+    if options.trajectory is not None:
+        check_is_file(options.trajectory, "trajectory")
+    readers = registry.readers if registry is not None and registry.readers else builtin_readers()
+    reader = choose_reader(path, head, readers)
+    try:
+        opened = reader.open(path, options, observer)
+    except FloorPlanError:
+        raise
+    except OSError as error:
+        raise InputError(f"Cannot read {path.name}: {error.strerror or error}.") from error
+    except (ValueError, MemoryError, OverflowError) as error:
+        raise InputError(f"{path.name} is damaged ({reader.name}: {str(error)[:120]}).") from error
+    return replace(opened, assumptions=(*_mislabelled(path, reader, readers), *opened.assumptions))
+
+
+def choose_reader(path: Path, head: bytes, readers: Sequence[Reader]) -> Reader:
+    """The reader that is surest; the first of them where two are. :class:`InputError` where none is."""
+    scores = [reader.sniff(path, head) for reader in readers]
+    best = max(range(len(readers)), key=lambda k: scores[k], default=-1)
+    if best < 0 or scores[best] <= 0:
+        raise InputError(_why_not(path, head, readers))
+    return readers[best]
+
+
+def read_head(path: Path) -> bytes:
+    """The first bytes of a file, b"" for a folder; :class:`InputError` for what is neither."""
+    name = path.name or str(path)
+    if check_is_file(path, "input", folder=True):
+        return b""
+    try:
+        with path.open("rb") as handle:
+            head = handle.read(HEAD_BYTES)
+    except OSError as error:
+        raise InputError(f"Cannot read {name}: {error.strerror or error}.") from error
+    if not head:
+        raise InputError(f"{name} is empty.")
+    return head
+
+
+def check_is_file(path: Path, role: str, folder: bool = False) -> bool:
+    """True for a folder (where one may be), False for a file; :class:`InputError` for anything else."""
+    name = path.name or str(path)
+    try:
+        mode = path.stat().st_mode
+    except FileNotFoundError:
+        what = "is a link to something that does not exist" if path.is_symlink() else "does not exist"
+        raise InputError(f"The {role} {path} {what}.") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"Cannot read the {role} {name}: {reason}.") from error
+    if stat.S_ISDIR(mode) and folder:
+        return True
+    if not stat.S_ISREG(mode):
+        raise InputError(f"The {role} {name} is {_kind(mode)}, not a file.")
+    return False
+
+
+def _kind(mode: int) -> str:
+    kinds = (
+        (stat.S_ISDIR, "a folder"),
+        (stat.S_ISFIFO, "a pipe"),
+        (stat.S_ISSOCK, "a socket"),
+        (stat.S_ISCHR, "a device"),
+        (stat.S_ISBLK, "a device"),
+    )
+    return next((name for test, name in kinds if test(mode)), "something else")
+
+
+def _why_not(path: Path, head: bytes, readers: Sequence[Reader]) -> str:
+    known = ", ".join(reader.name for reader in readers)
+    if not head and path.is_dir():
+        return f"The folder {path.name or path} holds no scans (numbered point clouds like 000000.ply) and no point cloud."
+    what = identify(head, path)
+    if what:
+        return f"{path.name} is {what}; readable are: {known}."
+    claims = [r.name for r in readers if path.suffix.lower() in r.suffixes]
+    if claims:
+        return f"{path.name} claims to be {claims[0]} but its content is not; it may be damaged or misnamed."
+    return f"{path.name} is not a point cloud that Floorcast knows; readable are: {known}."
+
+
+def _mislabelled(path: Path, reader: Reader, readers: Sequence[Reader]) -> tuple[str, ...]:
+    suffix = path.suffix.lower()
+    if path.is_dir() or suffix in reader.suffixes:
+        return ()
+    claims = [other.name for other in readers if suffix in other.suffixes]
+    if not claims:
+        return ()
+    return (
+        f"{path.name} is named like a {claims[0]} file but holds {reader.name}; it was read as what it holds.",
+    )

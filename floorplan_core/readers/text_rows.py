@@ -1,0 +1,171 @@
+"""Rows of numbers in text (ASCII PLY and PCD, XYZ, PTS, CSV): blocks of whole lines become arrays.
+
+A block in which every line holds the same number of plain numbers is parsed at once; any other block goes
+line by line, where lines that are no points are left out and counted.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.readers.records import as_scan_id, join_chunks
+from floorplan_core.readers.source import SAMPLE_BLOCKS, SAMPLE_POINTS, RawChunk, ScanIds
+
+Float = NDArray[np.float64]
+
+BLOCK_BYTES = 4 << 20  # some 130,000 points
+MAX_LINE_BYTES = 1 << 16  # a longer line is no row of numbers
+ORDER_PASS_BYTES = 32 << 20  # up to here a whole pass is cheap enough to learn the order of the scans
+
+
+@dataclass(frozen=True)
+class TextLayout:
+    """Where the rows of a text file are and which columns we use."""
+
+    offset: int  # bytes before the first row
+    columns: int
+    xyz: tuple[int, int, int]
+    scan_id: int | None = None
+    stamp: int | None = None
+    separator: str = " "  # " ", "," or ";"; spaces and tabs always separate, too
+    decimal_comma: bool = False
+    count: int | None = None  # rows, where the header says so; what follows is not ours
+
+
+def text_chunks(path: Path, layout: TextLayout) -> Iterator[RawChunk]:
+    """All rows, a block of text at a time."""
+    left = layout.count
+    for block in _line_blocks(path, layout.offset):
+        if left is not None and left <= 0:
+            return
+        chunk = parse_block(block, layout, left)
+        if left is not None:
+            left -= len(chunk.points) + chunk.dropped
+        yield chunk
+
+
+def text_sample(path: Path, layout: TextLayout) -> RawChunk:
+    """About ``SAMPLE_POINTS`` rows in blocks that are spread evenly over the file."""
+    size = path.stat().st_size
+    # 32 bytes are a usual row of three coordinates; longer rows only make the sample smaller.
+    block = SAMPLE_POINTS // SAMPLE_BLOCKS * 32
+    if size - layout.offset <= block * SAMPLE_BLOCKS or layout.count is not None:
+        return parse_block(next(_line_blocks(path, layout.offset), b""), layout, layout.count)
+    parts = []
+    with path.open("rb") as handle:
+        for start in np.linspace(layout.offset, size - block, SAMPLE_BLOCKS).astype(np.int64).tolist():
+            handle.seek(start)
+            if start != layout.offset:
+                handle.readline(MAX_LINE_BYTES)
+            data = handle.read(block)
+            parts.append(parse_block(data[: data.rfind(b"\n") + 1], layout))
+    return join_chunks(parts)
+
+
+def text_scan_ids(path: Path, layout: TextLayout) -> ScanIds | None:
+    """Range and order of the scan ids; None without such a column, or where the file is too long to look."""
+    if layout.scan_id is None or path.stat().st_size > ORDER_PASS_BYTES:
+        return None
+    ids = join_chunks([*text_chunks(path, layout), _rows_to_chunk(_no_rows(layout), layout)]).scan_id
+    if ids is None or not len(ids):
+        return None
+    return ScanIds(int(ids.min()), int(ids.max()), bool((ids[1:] >= ids[:-1]).all()))
+
+
+def count_lines(path: Path, offset: int, limit: int) -> int:
+    """Lines that hold anything from ``offset`` on, at most ``limit``."""
+    lines = 0
+    for block in _line_blocks(path, offset):
+        lines += sum(1 for line in block.splitlines() if line.strip())
+        if lines >= limit:
+            return limit
+    return lines
+
+
+def skip_lines(path: Path, offset: int, count: int) -> int:
+    """The byte after ``count`` further lines (or the end of the file)."""
+    with path.open("rb") as handle:
+        handle.seek(offset)
+        for _ in range(count):
+            if not handle.readline(MAX_LINE_BYTES):
+                break
+        return handle.tell()
+
+
+def parse_block(block: bytes, layout: TextLayout, limit: int | None = None) -> RawChunk:
+    """Points of whole lines; at most ``limit`` lines."""
+    if limit is not None and block.count(b"\n") > limit:
+        block = b"\n".join(block.split(b"\n", limit)[:limit]) + b"\n"
+    text = normalise(block, layout)
+    rows = _parse_at_once(text, layout)
+    return _rows_to_chunk(rows, layout) if rows is not None else _parse_lines(text, layout)
+
+
+def normalise(block: bytes, layout: TextLayout) -> bytes:
+    """The block with spaces between its columns and points before its decimals."""
+    if layout.decimal_comma:
+        block = block.replace(b",", b".")
+    elif layout.separator == ",":
+        block = block.replace(b",", b" ")
+    return block.replace(b";", b" ") if layout.separator == ";" else block
+
+
+def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:
+    lines = text.count(b"\n") + (not text.endswith(b"\n") and bool(text))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            values = np.fromstring(text, dtype=np.float64, sep=" ")
+        except (ValueError, DeprecationWarning):
+            return None
+    return values.reshape(lines, layout.columns) if len(values) == lines * layout.columns else None
+
+
+def _parse_lines(text: bytes, layout: TextLayout) -> RawChunk:
+    rows, dropped = [], 0
+    used = [c for c in (*layout.xyz, layout.scan_id, layout.stamp) if c is not None]
+    for line in text.splitlines():
+        words = line.split(b"#", 1)[0].split()
+        if not words or words[0].startswith(b"//"):
+            continue
+        try:
+            row = np.full(layout.columns, np.nan)
+            row[used] = [float(words[c]) for c in used]
+            rows.append(row)
+        except (IndexError, ValueError):
+            dropped += 1
+    return _rows_to_chunk(np.array(rows) if rows else _no_rows(layout), layout, dropped)
+
+
+def _no_rows(layout: TextLayout) -> Float:
+    return np.empty((0, layout.columns))
+
+
+def _rows_to_chunk(rows: Float, layout: TextLayout, dropped: int = 0) -> RawChunk:
+    ids = None if layout.scan_id is None else as_scan_id(rows[:, layout.scan_id])
+    stamps = None if layout.stamp is None else rows[:, layout.stamp].copy()
+    return RawChunk(rows[:, layout.xyz], ids, stamps, dropped=dropped)
+
+
+def _line_blocks(path: Path, offset: int) -> Iterator[bytes]:
+    """Blocks of whole lines from ``offset``; a line without end of more than a block is cut there."""
+    with path.open("rb") as handle:
+        handle.seek(offset)
+        rest = b""
+        while data := handle.read(BLOCK_BYTES):
+            if b"\n" not in data and b"\r" in data:
+                data = data.replace(b"\r", b"\n")  # old Macintosh line ends
+            cut = data.rfind(b"\n") + 1
+            if cut == 0 and len(rest) < BLOCK_BYTES:
+                rest += data
+                continue
+            yield rest + (data[:cut] if cut else data)
+            rest = data[cut:] if cut else b""
+        if rest:
+            yield rest

@@ -1,0 +1,120 @@
+"""Trajectories in TUM form: ``timestamp tx ty tz qx qy qz qw``, one pose a line, ``#`` comments."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.errors import InputError
+from floorplan_core.model import Trajectory
+from floorplan_core.observer import Observer
+
+Float = NDArray[np.float64]
+
+COLUMNS = 8
+MAX_BYTES = 1 << 30  # ten million poses; more is no trajectory
+MIN_QUATERNION = 1e-6  # a shorter quaternion has no direction
+
+
+def read_trajectory(path: Path, observer: Observer | None = None) -> Trajectory:
+    """Poses of a TUM file, in the file's own coordinates.
+
+    Quaternions are normalised. Raises :class:`InputError` with the line number for anything that is not a
+    pose; stamps that go back are reported through ``observer`` (the rows keep their order, because scan
+    ids count rows) and held at the latest stamp before them.
+    """
+    rows = _rows(path)
+    stamps = rows[:, 0]
+    late = np.flatnonzero(np.diff(stamps) < 0)
+    if len(late) and observer is not None:
+        observer.warning(
+            f"The time stamps of {path.name} go back {len(late)} times, first after row {late[0]}; "
+            "rows are used in the order of the file."
+        )
+    return Trajectory(np.maximum.accumulate(stamps), _poses(rows))
+
+
+def looks_like_trajectory(path: Path) -> bool:
+    """True where the first line that is no comment holds eight numbers."""
+    try:
+        with path.open("rb") as handle:
+            lines = handle.read(4096).decode("utf-8", "replace").splitlines()
+    except OSError:
+        return False
+    words = [w for w in map(_words, lines) if w]
+    return any(_is_pose(w) for w in words[:2])
+
+
+def rotation_from_quaternion(q: Float) -> Float:
+    """(N, 3, 3) rotations of (N, 4) unit quaternions x, y, z, w."""
+    x, y, z, w = q.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
+def _rows(path: Path) -> Float:
+    """(M, 8) numbers with unit quaternions."""
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(f"{path.name} is too large for a trajectory ({path.stat().st_size:,} bytes).")
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"Cannot read the trajectory {path.name}: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path.name} is not a trajectory: it is not text.") from error
+    rows: list[list[float]] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        words = _words(line)
+        if words and not (not rows and _is_header(words)):
+            rows.append(_pose(path, number, words))
+    if not rows:
+        raise InputError(f"The trajectory {path.name} holds no poses.")
+    return np.array(rows)
+
+
+def _words(line: str) -> list[str]:
+    return line.split("#", 1)[0].replace(",", " ").replace(";", " ").split()
+
+
+def _is_header(words: list[str]) -> bool:
+    return all(word[0].isalpha() and word.lower() not in ("nan", "inf") for word in words)
+
+
+def _is_pose(words: list[str]) -> bool:
+    try:
+        return len([float(w) for w in words]) == COLUMNS
+    except ValueError:
+        return False
+
+
+def _pose(path: Path, number: int, words: list[str]) -> list[float]:
+    where = f"Line {number} of the trajectory {path.name}"
+    if len(words) != COLUMNS:
+        raise InputError(
+            f"{where} has {len(words)} columns instead of the 8 of TUM form (timestamp tx ty tz qx qy qz qw)."
+        )
+    try:
+        row = [float(word) for word in words]
+    except ValueError:
+        raise InputError(f"{where} is not a row of numbers: {' '.join(words)[:60]!r}.") from None
+    if not all(map(math.isfinite, row)):
+        raise InputError(f"{where} holds a value that is not a finite number.")
+    norm = math.hypot(*row[4:])
+    if norm < MIN_QUATERNION:
+        raise InputError(f"{where} has a quaternion of length zero, which is no rotation.")
+    return row[:4] + [q / norm for q in row[4:]]
+
+
+def _poses(rows: Float) -> Float:
+    poses = np.zeros((len(rows), 4, 4))
+    poses[:, :3, :3] = rotation_from_quaternion(rows[:, 4:])
+    poses[:, :3, 3] = rows[:, 1:4]
+    poses[:, 3, 3] = 1.0
+    return poses
