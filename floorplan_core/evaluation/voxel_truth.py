@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ def load_free_voxels(path: Path) -> Truth:
     try:
         with np.load(path, allow_pickle=False) as data:
             centers, res = np.asarray(data["centers"], dtype=np.float64), float(data["res"])
-    except (OSError, ValueError, KeyError, EOFError) as error:
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(
             f"{path.name} is no table of free voxels with 'centers' and 'res': {error}."
         ) from error
