@@ -10,10 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import pluggy
+
+from floorplan_core.errors import UsageError
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config, InputConfig
@@ -94,18 +97,93 @@ class PluginStatus:
     name: str
     origin: str  # "shipped", "installed" or "user folder"
     brings: list[str] = field(default_factory=list)
-    error: str = ""  # why it was switched off
+    error: str = ""  # why it was switched off; "" while it works
+
+    @property
+    def enabled(self) -> bool:
+        """False once it failed."""
+        return not self.error
 
 
 class PluginRegistry:
-    """Finds plugins once and hands out what they bring. (Discovery is implemented below.)"""
+    """Finds plugins once and hands out what they bring, as long as they work."""
 
     def __init__(self) -> None:
         self.statuses: list[PluginStatus] = []
-        self.readers: list[Reader] = []
-        self.exporters: list[Exporter] = []
-        self.classifiers: list[RegionClassifier] = []
+        self._brought: list[tuple[PluginStatus, Any]] = []
 
-    def discover(self, user_folder: Path | None = None) -> Any:
-        """Load every plugin; failures end up in ``statuses``."""
-        raise NotImplementedError
+    def discover(self, user_folder: Path | None = None) -> PluginRegistry:
+        """Load every plugin; failures end up in ``statuses``. ``user_folder``: None for the usual one."""
+        from floorplan_core.plugin_discovery import load_all
+
+        for status, things in load_all(user_folder):
+            self.add(status, things)
+        return self
+
+    def add(self, status: PluginStatus, things: Sequence[Reader | Exporter | RegionClassifier]) -> None:
+        """Take on what one plugin brings, each thing behind a guard that switches it off if it fails."""
+        from floorplan_core.plugin_guard import guarded
+
+        self.statuses.append(status)
+        self._brought += [(status, guarded(thing, status)) for thing in things]
+
+    @property
+    def readers(self) -> list[Reader]:
+        """Readers of the plugins that work: shipped ones first, then by name."""
+        return self._enabled(Reader)
+
+    @property
+    def exporters(self) -> list[Exporter]:
+        """Exporters of the plugins that work."""
+        return self._enabled(Exporter)
+
+    @property
+    def classifiers(self) -> list[RegionClassifier]:
+        """Region classifiers of the plugins that work."""
+        return self._enabled(RegionClassifier)
+
+    def exporter(self, path: Path, format: str | None = None) -> Exporter:
+        """The exporter named ``format``, else the one for the suffix of ``path``.
+
+        Where several share a suffix, the one named like the file wins (``planes.png``), else the first.
+        Raises :class:`UsageError` that lists what there is.
+        """
+        if format is not None:
+            wanted = [e for e in self.exporters if e.name.lower() == format.lower()]
+        else:
+            wanted = [e for e in self.exporters if path.name.lower().endswith(e.suffixes)]
+        if not wanted:
+            raise UsageError(self._no_exporter(path, format))
+        return min(wanted, key=lambda e: e.name.lower() != path.stem.lower())
+
+    def classifier(self, name: str) -> RegionClassifier:
+        """The classifier called ``name``. Raises :class:`UsageError` that lists what there is."""
+        for classifier in self.classifiers:
+            if classifier.name == name:
+                return classifier
+        known = ", ".join(sorted(c.name for c in self.classifiers)) or "none"
+        raise UsageError(
+            f"There is no region classifier {name!r} (setting labels.classifier); known: {known}."
+        )
+
+    def failures(self) -> list[str]:
+        """One sentence for each plugin that was switched off."""
+        return [
+            f"The plugin {s.name!r} ({s.origin}) was switched off: {s.error}."
+            for s in self.statuses
+            if s.error
+        ]
+
+    def _enabled(self, kind: Any) -> list[Any]:
+        return [thing for status, thing in self._brought if status.enabled and isinstance(thing, kind)]
+
+    def _no_exporter(self, path: Path, format: str | None) -> str:
+        known = ", ".join(f"{e.name} ({' '.join(e.suffixes)})" for e in self.exporters) or "none"
+        what = f"called {format!r}" if format is not None else f"for {path.name!r}"
+        return f"There is no exporter {what}; known: {known}."
+
+
+@lru_cache(maxsize=1)
+def default_registry() -> PluginRegistry:
+    """The registry of this process; plugins are found on the first call, not before."""
+    return PluginRegistry().discover()

@@ -1,0 +1,38 @@
+"""``floorcast evaluate``: a plan against a ground truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from floorplan_core.cli.console import Console
+from floorplan_core.cli.options import DebugFlag, JsonFlag, QuietFlag
+
+
+def evaluate(
+    context: typer.Context,
+    plan: Annotated[
+        Path, typer.Argument(metavar="PLAN", help="A plan.geojson, or the folder that holds one.")
+    ],
+    truth: Annotated[Path, typer.Argument(metavar="TRUTH", help="A truth.json.")],
+    as_json: JsonFlag = False,
+    quiet: QuietFlag = False,
+    debug: DebugFlag = False,
+) -> None:
+    """Compare a plan with a ground truth: dimensions, rooms, labels, doors, free space."""
+    from rich.table import Table
+    from rich.text import Text
+
+    from floorplan_core.evaluation import evaluate as compare
+
+    console = Console(context, as_json=as_json, quiet=quiet)
+    report = compare(plan, truth)
+    table = Table(title=f"{plan} against {truth}")
+    rows = report.rows()
+    for index in range(max(map(len, rows), default=0)):
+        table.add_column(justify="left" if index == 0 else "right")
+    for row in rows:
+        table.add_row(*(Text(str(cell)) for cell in row))
+    console.table(report.as_dict(), table)

@@ -1,0 +1,54 @@
+"""Options that several commands share, declared once, and the configuration that they lead to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from floorplan_core.config import Config
+
+JsonFlag = Annotated[
+    bool, typer.Option("--json", help="One machine-readable line on stdout instead of text.")
+]
+QuietFlag = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+DebugFlag = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
+ConfigFile = Annotated[
+    Path | None,
+    typer.Option("--config", metavar="FILE.yaml", help="Settings to use instead of the defaults."),
+]
+Assignments = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="STAGE.FIELD=VALUE", help="Change one setting; may be repeated."),
+]
+SurveyArgument = Annotated[
+    Path, typer.Argument(metavar="INPUT", help="A point cloud, or a folder of scans.", show_default=False)
+]
+TrajectoryFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--trajectory", metavar="FILE", help="The sensor's path (TUM); default: the file beside INPUT."
+    ),
+]
+OutFolder = Annotated[
+    Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the results.", show_default=False)
+]
+
+
+def resolve_config(file: Path | None, assignments: list[str] | None) -> Config:
+    """The settings of ``--config`` (else the defaults) with every ``--set`` applied."""
+    from floorplan_core.config import Config
+
+    config = Config() if file is None else Config.load(file)
+    return config.with_values(dict(_split(text) for text in assignments or ()))
+
+
+def _split(text: str) -> tuple[str, str]:
+    from floorplan_core.errors import UsageError
+
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise UsageError(f"--set needs STAGE.FIELD=VALUE, like doors.max_width=1.2 (given {text!r}).")
+    return name.strip(), value.strip()

@@ -1,0 +1,171 @@
+"""``floorcast plan``: the main job, a reconstruction in, a floor plan out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from floorplan_core.cli.console import CommandObserver, Console
+from floorplan_core.cli.options import (
+    Assignments,
+    ConfigFile,
+    DebugFlag,
+    JsonFlag,
+    OutFolder,
+    QuietFlag,
+    SurveyArgument,
+    TrajectoryFile,
+    resolve_config,
+)
+
+if TYPE_CHECKING:
+    from floorplan_core.config import Config
+    from floorplan_core.model import FloorPlan, Reconstruction
+
+PLAN_FILE = "plan.floorplan"
+DRAWINGS = ("plan.geojson", "plan.svg")
+PICTURES = ("planes.png", "occupancy.png", "plan.png")
+STAGE_FOLDER = "stages"
+
+
+def plan(
+    context: typer.Context,
+    survey: SurveyArgument,
+    out: OutFolder,
+    trajectory: TrajectoryFile = None,
+    pictures: Annotated[bool, typer.Option(help="Write the paper's three figures as PNG too.")] = True,
+    save_stages: Annotated[
+        bool, typer.Option("--save-stages", help="Keep what every stage made, in DIR/stages.")
+    ] = False,
+    config: ConfigFile = None,
+    set_: Assignments = None,
+    as_json: JsonFlag = False,
+    quiet: QuietFlag = False,
+    debug: DebugFlag = False,
+) -> None:
+    """Make a floor plan of a survey: plan.geojson, plan.svg, report.json and pictures."""
+    from floorplan_core.files import output_folder
+
+    started = perf_counter()
+    console = Console(context, as_json=as_json, quiet=quiet)
+    settings = resolve_config(config, set_)
+    with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
+        made, clock = make_plan(survey, trajectory, settings, observer)
+        names = DRAWINGS + (PICTURES if pictures else ())
+        clock["export"] = write_plan(made, staging, names)
+        if save_stages:
+            _save_stages(observer, staging / STAGE_FOLDER)
+        clock["total"] = perf_counter() - started
+        report = _write_report(made, clock, observer, staging)
+        files = sorted(str(p.relative_to(staging)) for p in staging.rglob("*") if p.is_file())
+    counts = {k: report[k] for k in ("regions", "doors", "planes", "points")}
+    data = {
+        "out": str(out),
+        "files": files,
+        **counts,
+        "seconds": clock["total"],
+        "warnings": report["warnings"],
+    }
+    console.result(data, summary(made, clock["total"], out, files))
+
+
+def make_plan(
+    survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver
+) -> tuple[FloorPlan, dict[str, float]]:
+    """Read ``survey`` and run the pipeline; returns the plan and the seconds spent in reading."""
+    from floorplan_core.pipeline import process
+
+    started = perf_counter()
+    reconstruction = open_input(survey, trajectory, config, observer)
+    clock = {"read": perf_counter() - started}
+    return process(timed_chunks(reconstruction, clock), config, observer), clock
+
+
+def open_input(
+    survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver
+) -> Reconstruction:
+    """Open ``survey`` with the readers of all plugins; what had to be guessed is shown."""
+    from floorplan_core.plugins import default_registry
+    from floorplan_core.readers import open_survey
+
+    registry = default_registry()
+    opened = open_survey(survey, trajectory, config.input, observer, registry)
+    for sentence in opened.assumptions:
+        observer.console.message(sentence)
+    return opened
+
+
+def timed_chunks(reconstruction: Reconstruction, clock: dict[str, float]) -> Reconstruction:
+    """The same survey; the seconds that its reader takes for its chunks are added to ``clock["read"]``."""
+    from collections.abc import Iterator
+
+    from floorplan_core.model import PointChunk
+
+    def chunks() -> Iterator[PointChunk]:
+        source = reconstruction.chunks()
+        while True:
+            started = perf_counter()
+            chunk = next(source, None)
+            clock["read"] += perf_counter() - started
+            if chunk is None:
+                return
+            yield chunk
+
+    return replace(reconstruction, chunks=chunks)
+
+
+def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...]) -> float:
+    """Write ``plan`` losslessly and with the exporter for each of ``names``; returns the seconds it took."""
+    from floorplan_core import intermediates
+    from floorplan_core.files import writing
+    from floorplan_core.plugins import default_registry
+
+    started = perf_counter()
+    for name in names:
+        with writing(folder.parent / name):
+            default_registry().exporter(Path(name)).write(plan, folder / name)
+    with writing(folder.parent / PLAN_FILE):
+        intermediates.save(plan, folder / PLAN_FILE)
+    return perf_counter() - started
+
+
+def _save_stages(observer: CommandObserver, folder: Path) -> None:
+    from floorplan_core import intermediates
+    from floorplan_core.files import writing
+
+    with writing(folder.parent):
+        folder.mkdir()
+        for stage, result in observer.results.items():
+            intermediates.save(result, folder / f"{stage}.stage")
+
+
+def _write_report(
+    plan: FloorPlan, clock: dict[str, float], observer: CommandObserver, folder: Path
+) -> dict[str, object]:
+    from floorplan_core.files import writing
+    from floorplan_core.plugins import default_registry
+    from floorplan_core.report import as_json, run_report
+
+    failed = default_registry().failures()
+    for sentence in failed:
+        observer.warning(sentence)
+    report = run_report(plan, clock, [*observer.warnings, *failed])
+    with writing(folder.parent / "report.json"):
+        (folder / "report.json").write_text(as_json(report), encoding="utf-8")
+    return report
+
+
+def summary(plan: FloorPlan, seconds: float, out: Path, files: list[str]) -> str:
+    """What was made, in two sentences and a list of files."""
+    labels = [region.label for region in plan.regions]
+    kinds = ", ".join(
+        f"{labels.count(label)} {label}{'s' * (labels.count(label) != 1)}" for label in sorted(set(labels))
+    )
+    area = sum(region.area for region in plan.regions)
+    doors = f"{len(plan.doors)} door{'s' * (len(plan.doors) != 1)}"
+    head = f"{plan.source}: {kinds or 'no regions'}, {doors}, {area:.1f} m2, in {seconds:.1f} s."
+    return "\n".join([head, f"Wrote into {out}: {', '.join(files)}."])
