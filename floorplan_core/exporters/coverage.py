@@ -1,13 +1,14 @@
 """Region polygons that stay disjoint when their coordinates are rounded.
 
-Rounding moves each vertex on its own, so two regions stay apart only where they share vertices. Hence, in the
-manhattan frame: coordinates that nearly agree are made equal, and every vertex that lies on an edge of another
-region becomes a vertex of that edge too. After that, shared edges are pairs of equal vertices, whatever
-rotation and rounding follow.
+Rounding moves each vertex on its own, so two regions stay apart only where they share vertices. Hence, in
+the manhattan frame: coordinates that nearly agree are made equal, and every vertex that lies on an edge of
+another region becomes a vertex of that edge too. After that, shared edges are pairs of equal vertices,
+whatever rotation and rounding follow.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -22,7 +23,7 @@ MERGE = 5e-4
 
 
 def matched(polygons: Sequence[Any]) -> list[Any]:
-    """The same polygons with equal vertices along shared edges (shapely Polygons, counter-clockwise shells)."""
+    """The same shapely Polygons with equal vertices along shared edges, shells counter-clockwise."""
     merged = _merge_coordinates(list(polygons))
     vertices = np.unique(shapely.get_coordinates(merged), axis=0)
     return [_rebuild(p, lambda ring: _insert(ring, vertices)) for p in shapely.orient_polygons(merged)]
@@ -61,7 +62,7 @@ def _rebuild(polygon: Any, change: Callable[[Float], Float]) -> Any:
 def _insert(ring: Float, vertices: Float) -> Float:
     """The ring with all ``vertices`` that lie inside its edges, in order."""
     parts = []
-    for a, b in zip(ring[:-1], ring[1:], strict=True):
+    for a, b in itertools.pairwise(ring):
         edge = b - a
         length = float(np.hypot(*edge))
         if length == 0:

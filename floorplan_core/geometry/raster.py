@@ -69,8 +69,8 @@ def _label(mask: Bool) -> NDArray[np.int32]:
 def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:
     """Lattice corners of the boundary: x, y, and whether the edge to the west joins the one to the north.
 
-    Where two cells touch at a corner only, the corner is listed twice, once for each of the two rings that
-    meet there. Cells of one patch are joined across it, cells of two patches kept apart: every ring is simple.
+    Where two cells touch at a corner only, the corner is listed twice, once for each of the two rings
+    that meet there. Cells of one patch are joined across it, of two kept apart: every ring is simple.
     """
     sw, se, nw, ne = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
     filled = (sw > 0).astype(np.int8) + (se > 0) + (nw > 0) + (ne > 0)

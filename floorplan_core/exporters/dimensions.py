@@ -1,0 +1,80 @@
+"""Chain dimensions: what somebody would measure along each side of the building. Metres, manhattan frame.
+
+Looking at the plan from one side, the faces that are seen whole are dimensioned, each from corner to corner.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.model import Region
+
+Float = NDArray[np.float64]
+
+STRAIGHT = 1e-6  # metres: an edge is square to an axis if its ends differ less
+HIDDEN = 0.02  # metres of a face that may be hidden by others in front of it
+SAME = 0.05  # metres: two chains that differ less say the same
+
+
+@dataclass(frozen=True)
+class Span:
+    """A dimensioned stretch."""
+
+    start: float  # metres along the side
+    end: float
+    face: float  # metres across: where the face lies
+
+    @property
+    def length(self) -> float:
+        """Metres."""
+        return self.end - self.start
+
+
+def chain(regions: Sequence[Region], axis: int, sign: int) -> tuple[Span, ...]:
+    """Faces seen whole by somebody outside who looks along ``-sign * axis``; sorted by start.
+
+    ``axis`` 1 and ``sign`` +1 is the view from the top of the page: horizontal faces of the topmost regions.
+    """
+    edges = _faces(regions, axis, sign)
+    spans = [Span(a, b, face) for face, a, b in edges if _visible(face, a, b, edges, sign) >= b - a - HIDDEN]
+    return tuple(sorted(set(spans), key=lambda s: (s.start, s.end)))
+
+
+def overall(regions: Sequence[Region], axis: int) -> tuple[float, float]:
+    """Lowest and highest coordinate along ``axis``: the extent between the outermost inside faces."""
+    bounds = shapely.total_bounds([r.polygon for r in regions])
+    return float(bounds[axis]), float(bounds[axis + 2])
+
+
+def differs(one: Sequence[Span], other: Sequence[Span]) -> bool:
+    """True where ``one`` says something that ``other`` does not."""
+    return any(all(abs(s.start - o.start) > SAME or abs(s.end - o.end) > SAME for o in other) for s in one)
+
+
+def _faces(regions: Sequence[Region], axis: int, sign: int) -> list[tuple[float, float, float]]:
+    """(position across, start, end) of the edges square to ``axis`` with the inside at ``-sign``."""
+    faces = []
+    for region in regions:
+        ring = shapely.get_coordinates(shapely.orient_polygons(region.polygon).exterior)
+        for a, b in itertools.pairwise(ring.tolist()):
+            along = 1 - axis
+            # Inside is to the left: a top face (axis 1, sign +1) runs towards -x, a right face towards +y.
+            runs = (b[along] - a[along]) * sign * (1 if axis == 0 else -1)
+            if abs(a[axis] - b[axis]) < STRAIGHT and runs > STRAIGHT:
+                start, end = sorted((a[along], b[along]))
+                faces.append((a[axis], start, end))
+    return faces
+
+
+def _visible(
+    face: float, start: float, end: float, edges: Sequence[tuple[float, float, float]], sign: int
+) -> float:
+    """Metres of the face with no other face in front of it."""
+    front = [shapely.box(a, 0, b, 1) for f, a, b in edges if sign * (f - face) > STRAIGHT]
+    return float(shapely.box(start, 0, end, 1).difference(shapely.union_all(front)).area)

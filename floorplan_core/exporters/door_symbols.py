@@ -1,0 +1,107 @@
+"""Door leaves and their swing: which way a door is drawn to open. Metres, manhattan frame.
+
+A survey does not show it, so the drawing follows the usual convention: into a room rather than a corridor,
+the hinge at the jamb nearer to a corner, the leaf clear of walls. Ties: towards the lower coordinate, hinge at
+the start.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.exporters.walls import Opening
+from floorplan_core.model import Region
+
+Float = NDArray[np.float64]
+
+ARC_STEPS = 12
+CLEAR = 0.97  # share of the swing that must lie on floor
+DOUBLE = 1.15  # metres: wider doors get two leaves
+REACH = 0.1  # metres behind the face where the region that a door opens into is looked for
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """One leaf, open at a right angle."""
+
+    hinge: Float  # (2,)
+    tip: Float  # (2,) free end of the open leaf
+    closed: Float  # (2,) where the free end lies when shut
+
+    @property
+    def sector(self) -> Any:
+        """The floor that it sweeps, a shapely Polygon."""
+        u, v = self.tip - self.hinge, self.closed - self.hinge
+        t = np.linspace(0, np.pi / 2, ARC_STEPS)[:, None]
+        return shapely.Polygon(np.vstack([self.hinge[None], self.hinge + np.cos(t) * u + np.sin(t) * v]))
+
+
+def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
+    """The leaves of a door; none for an opening."""
+    if opening.door.kind != "door":
+        return ()
+    options = []
+    for direction in (-1, 1):
+        region = _region_at(_beyond(opening, direction), regions)
+        for hinge in ("start", "end"):
+            made = _make(opening, direction, hinge)
+            options.append((_cost(opening, made, region, hinge), len(options), made))
+    return min(options)[2]
+
+
+def _cost(
+    opening: Opening, made: tuple[Leaf, ...], region: Region | None, hinge: str
+) -> tuple[bool, bool, bool, float]:
+    """Smaller is better: outside the plan, hits a wall, opens into a corridor, far from a corner."""
+    if region is None:
+        return True, True, True, 0.0
+    swept = shapely.union_all([leaf.sector for leaf in made])
+    clear = region.polygon.intersection(swept).area >= CLEAR * swept.area
+    return False, not clear, region.label != "room", _to_corner(opening, region, hinge)
+
+
+def _to_corner(opening: Opening, region: Region, hinge: str) -> float:
+    """Metres from the hinge to the nearest wall that is square to the door's wall."""
+    along = 1 - opening.door.axis
+    at = getattr(opening.door, hinge)
+    corners = shapely.get_coordinates(region.polygon)[:, along]
+    beyond = corners[corners <= at + REACH] if hinge == "start" else corners[corners >= at - REACH]
+    return round(float(np.abs(beyond - at).min()), 3) if len(beyond) else float("inf")
+
+
+def _beyond(opening: Opening, direction: int) -> Float:
+    """A point just behind the opening's face on that side."""
+    axis = opening.door.axis
+    point = np.empty(2)
+    point[1 - axis] = (opening.door.start + opening.door.end) / 2
+    point[axis] = opening.bounds[axis + 2 * (direction > 0)] + direction * REACH
+    return point
+
+
+def _region_at(point: Float, regions: Sequence[Region]) -> Region | None:
+    return next((r for r in regions if shapely.contains_xy(r.polygon, *point)), None)
+
+
+def _make(opening: Opening, direction: int, hinge: str) -> tuple[Leaf, ...]:
+    """One leaf hung at ``hinge``, or two that meet in the middle."""
+    door = opening.door
+    if door.width <= DOUBLE:
+        ends = (door.start, door.end) if hinge == "start" else (door.end, door.start)
+        return (_leaf(opening, direction, *ends),)
+    middle = (door.start + door.end) / 2
+    return _leaf(opening, direction, door.start, middle), _leaf(opening, direction, door.end, middle)
+
+
+def _leaf(opening: Opening, direction: int, hung: float, free: float) -> Leaf:
+    axis = opening.door.axis
+    face = opening.bounds[axis + 2 * (direction > 0)]
+    points = np.empty((3, 2))
+    points[:, 1 - axis] = hung, hung, free
+    points[:, axis] = face, face + direction * abs(free - hung), face
+    return Leaf(*points)

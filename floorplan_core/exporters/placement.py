@@ -1,0 +1,96 @@
+"""Where the text of a region goes: the largest variant that fits on free floor, at the best spot.
+
+Free floor is the region without the swing of its doors, on the page. A spot is good near the region's
+centroid (its pole of inaccessibility where the centroid is outside). Unit-free: callers use page millimetres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.exporters.svg_canvas import text_width
+
+Float = NDArray[np.float64]
+
+LEADING = 1.32  # line height over font size
+SHRINK = (1.0, 0.86, 0.74, 0.64)
+GRID = 13  # candidate spots per side of the region's bounds
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of a label."""
+
+    text: str
+    size: float
+    style: str  # "name", "area" or "note"; the caller knows what it looks like
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A label that found its place; its centre is (x, y)."""
+
+    lines: tuple[Line, ...]
+    x: float
+    y: float
+    turned: bool  # reads upwards
+    fits: bool
+
+
+def block_size(lines: Sequence[Line]) -> tuple[float, float]:
+    """Width and height of the lines set one under the other."""
+    return max(text_width(line.text, line.size) for line in lines), sum(line.size * LEADING for line in lines)
+
+
+def place(lines: Sequence[Line], free: Any, pad: float) -> Placed:
+    """Put as many of ``lines`` as fit, from the first on, as large as fits, ``pad`` away from walls."""
+    spots = _spots(free)
+    for count in range(len(lines), 0, -1):
+        for shrink in SHRINK:
+            scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
+            found = _try(scaled, free, spots, pad * shrink)
+            if found is not None:
+                return found
+    smallest = tuple(Line(w.text, w.size * SHRINK[-1], w.style) for w in lines[:1])
+    return Placed(smallest, float(spots[0, 0]), float(spots[0, 1]), False, False)
+
+
+def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float) -> Placed | None:
+    width, height = block_size(lines)
+    for turned in (False, True):
+        w, h = (height, width) if turned else (width, height)
+        half = np.array([w / 2 + pad, h / 2 + pad])
+        low, high = spots - half, spots + half
+        fits = shapely.contains_properly(free, shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+        if fits.any():
+            x, y = spots[int(np.argmax(fits))].tolist()
+            return Placed(lines, x, y, turned, True)
+    return None
+
+
+def _spots(free: Any) -> Float:
+    """(K, 2) candidate centres, best first; ties by row."""
+    shapely.prepare(free)
+    x0, y0, x1, y1 = free.bounds
+    steps = (np.arange(GRID) + 0.5) / GRID
+    gx, gy = np.meshgrid(x0 + steps * (x1 - x0), y0 + steps * (y1 - y0))
+    grid = np.column_stack([gx.ravel(), gy.ravel()])
+    home = _home(free)
+    inside = grid[shapely.contains_xy(free, grid)]
+    near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
+    return np.vstack([home[None], inside[near]])
+
+
+def _home(free: Any) -> Float:
+    """The centroid where it lies inside; else the pole of inaccessibility."""
+    centre = free.centroid
+    if not free.contains(centre):
+        circle = shapely.maximum_inscribed_circle(free, tolerance=max(free.length / 500, 1e-6))
+        return np.array(circle.coords[0], dtype=np.float64)
+    return np.array(centre.coords[0], dtype=np.float64)

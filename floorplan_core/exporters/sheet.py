@@ -1,0 +1,112 @@
+"""The sheet of a drawing: its scale, and where plan and information blocks lie. Millimetres of paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+SCALES = (50, 100, 200, 500, 1000, 2000, 5000)
+PAPERS = (("A4", 210.0, 297.0), ("A3", 297.0, 420.0), ("A2", 420.0, 594.0), ("A1", 594.0, 841.0))
+LARGEST = PAPERS[1]  # the largest paper that an office prints; a coarser scale is chosen before a larger one
+MARGIN = 13.0
+DIMENSIONS = 18.0  # room for two rows of dimensions on the left and at the top
+CHAIN = 11.0  # room for one row on the right and below
+GAP = 9.0  # between the drawing and the information blocks
+BLOCKS = ((92.0, 32.0), (78.0, 32.0), (58.0, 32.0))  # width, height of title, legend, scale and north
+BLOCK_GAP = 8.0
+COLUMN = 92.0  # width of the blocks where they stand beside the plan
+UPRIGHT = 1.25  # plans this much taller than wide have their blocks beside them
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A laid-out sheet. ``to_page`` maps plan coordinates to it."""
+
+    scale: int  # 1:scale
+    width: float
+    height: float
+    origin: tuple[float, float]  # plan coordinates (metres) of the drawing's upper left corner
+    corner: tuple[float, float]  # page coordinates of that corner
+    size: tuple[float, float]  # width and height of the plan with its walls on the page
+    blocks: tuple[tuple[float, float], ...]  # upper left corners of the information blocks
+    beside: bool  # the blocks stand beside the plan, not below it
+
+    @property
+    def mm(self) -> float:
+        """Millimetres of paper for a metre of building."""
+        return 1000.0 / self.scale
+
+    @property
+    def paper(self) -> str:
+        """The smallest paper that holds the sheet at full scale."""
+        short, long = sorted((self.width, self.height))
+        return next((name for name, a, b in PAPERS if short <= a and long <= b), "A0 or larger")
+
+    def to_page(self, points: Float) -> Float:
+        """(N, 2) plan metres to (N, 2) page millimetres, y down."""
+        p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+        x = self.corner[0] + (p[:, 0] - self.origin[0]) * self.mm
+        y = self.corner[1] + (self.origin[1] - p[:, 1]) * self.mm
+        return np.column_stack([x, y])
+
+    def geometry(self, shape: Any) -> Any:
+        """A shapely geometry on the page."""
+        return shapely.transform(shape, self.to_page)
+
+
+def lay_out(bounds: tuple[float, float, float, float]) -> Sheet:
+    """The sheet for a plan (walls included) of these bounds: x0, y0, x1, y1 in metres.
+
+    The finest scale at which everything fits the largest usual paper.
+    """
+    sheets = [_at_scale(bounds, scale) for scale in SCALES]
+    return next((s for s in sheets if _fits(s)), sheets[-1])
+
+
+def _fits(sheet: Sheet) -> bool:
+    short, long = sorted((sheet.width, sheet.height))
+    return short <= LARGEST[1] and long <= LARGEST[2]
+
+
+def _at_scale(bounds: tuple[float, float, float, float], scale: int) -> Sheet:
+    x0, y0, x1, y1 = bounds
+    w, h = (x1 - x0) * 1000 / scale, (y1 - y0) * 1000 / scale
+    drawing = (w + DIMENSIONS + CHAIN, h + DIMENSIONS + CHAIN)
+    if h > UPRIGHT * w:
+        return _beside((x0, y1), (w, h), drawing, scale)
+    return _below((x0, y1), (w, h), drawing, scale)
+
+
+def _below(
+    origin: tuple[float, float], size: tuple[float, float], drawing: tuple[float, float], scale: int
+) -> Sheet:
+    """Blocks in a strip under the plan; a narrow plan is centred above it."""
+    strip = sum(w for w, _ in BLOCKS) + BLOCK_GAP * (len(BLOCKS) - 1)
+    inner = max(drawing[0], strip)
+    corner = (MARGIN + (inner - drawing[0]) / 2 + DIMENSIONS, MARGIN + DIMENSIONS)
+    top = MARGIN + drawing[1] + GAP
+    spare = (inner - strip) / (len(BLOCKS) - 1)
+    lefts = np.cumsum([MARGIN, *(w + BLOCK_GAP + spare for w, _ in BLOCKS[:-1])]).tolist()
+    height = top + BLOCKS[0][1] + MARGIN
+    blocks = tuple((left, top) for left in lefts)
+    return Sheet(scale, inner + 2 * MARGIN, height, origin, corner, size, blocks, False)
+
+
+def _beside(
+    origin: tuple[float, float], size: tuple[float, float], drawing: tuple[float, float], scale: int
+) -> Sheet:
+    """Blocks in a column to the right; it ends where the plan ends."""
+    column = sum(h for _, h in BLOCKS) + BLOCK_GAP * (len(BLOCKS) - 1)
+    inner = max(drawing[1], column)
+    left = MARGIN + drawing[0] + GAP
+    tops = np.cumsum([MARGIN + inner - column, *(h + BLOCK_GAP for _, h in BLOCKS[:-1])]).tolist()
+    corner = (MARGIN + DIMENSIONS, MARGIN + DIMENSIONS + (inner - drawing[1]) / 2)
+    width = left + COLUMN + MARGIN
+    blocks = tuple((left, top) for top in tops)
+    return Sheet(scale, width, inner + 2 * MARGIN, origin, corner, size, blocks, True)

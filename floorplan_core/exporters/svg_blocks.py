@@ -1,0 +1,151 @@
+"""Title, legend, scale bar and north arrow (page millimetres)."""
+
+from __future__ import annotations
+
+import math
+
+from floorplan_core.exporters import palette
+from floorplan_core.exporters.sheet import BLOCKS, COLUMN, Sheet
+from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
+from floorplan_core.model import FloorPlan
+
+TITLE, BODY, SMALL = 5.0, 2.2, 1.9  # mm
+ROW = 3.9  # mm from line to line
+RULE = 0.25  # mm
+SWATCH = (7.0, 3.2)  # mm
+BAR_LENGTHS = (1, 2, 5, 10, 20, 50, 100, 200)  # metres
+BAR_SHARE = 0.62  # of the block's width that the scale bar may take
+NORTH = 6.5  # mm, radius of the arrow's circle
+
+
+def draw_blocks(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan) -> None:
+    """The three information blocks, under the plan or beside it."""
+    title, legend, scale = sheet.blocks
+    _draw_title(canvas, sheet, plan, *title)
+    _draw_legend(canvas, sheet, plan, *legend)
+    with canvas.group(id="scale"):
+        _draw_scale_bar(canvas, sheet, *scale)
+        _draw_north(canvas, sheet, plan, *scale)
+
+
+def _width(sheet: Sheet, block: int) -> float:
+    return COLUMN if sheet.beside else BLOCKS[block][0]
+
+
+def _draw_rule(canvas: SvgCanvas, sheet: Sheet, block: int, x: float, y: float) -> None:
+    canvas.line((x, y), (x + _width(sheet, block), y), stroke=palette.INK, stroke_width=RULE)
+
+
+def _draw_title(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+    with canvas.group(id="title-block"):
+        _draw_rule(canvas, sheet, 0, x, y)
+        size = min(TITLE, TITLE * _width(sheet, 0) / text_width(plan.source, TITLE))
+        canvas.text(plan.source, x, y + 7.2, size, font_weight="600")
+        for i, text in enumerate(title_lines(sheet, plan)):
+            fitting = min(BODY, BODY * _width(sheet, 0) / text_width(text, BODY))
+            canvas.text(text, x, y + 13 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
+
+
+def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
+    """What the title block says under the name."""
+    free, total = (sum(getattr(r, name) for r in plan.regions) for name in ("free_cells", "total_cells"))
+    observed = 100.0 * free / total if total else 0.0
+    area = sum(r.area for r in plan.regions)
+    storey = f" · storey {plan.storey}" if plan.storey else ""
+    return [
+        f"{area:.2f} m² net internal area to wall faces; {observed:.0f} % observed",
+        f"{_count(len(plan.regions), 'region')} · {_count(len(plan.doors), 'door')}{storey} · lengths in metres",
+        f"Scale 1:{sheet.scale} when printed on {sheet.paper} at full size",
+        f"Drawn along the walls: {math.degrees(plan.frame.yaw):.2f}° from the survey's axes "
+        f"(support {100 * plan.frame.support:.0f} %)",
+        f"Doors swing by convention · slice {plan.grid.slice_height:.2f} m above the floor",
+    ]
+
+
+def _count(n: int, noun: str) -> str:
+    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
+
+
+def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, object]]]:
+    """Text and swatch attributes, in reading order down the columns."""
+    fine = {"stroke": palette.GREY, "stroke_width": 0.1}
+    others = sorted({r.label for r in plan.regions} - set(palette.TONES))
+    floors = [("Room", palette.ROOM), ("Corridor", palette.CORRIDOR)]
+    floors += [(label.capitalize(), palette.OTHER) for label in others[:1]]
+    dashed = {"stroke": palette.WALL, "stroke_width": 0.13, "stroke_dasharray": "1.1 0.7"}
+    return [
+        ("Wall, observed", {"fill": palette.WALL}),
+        ("Wall, speculated", {"fill": "url(#guessed-wall)", **dashed}),
+        ("Floor, seen", {"fill": palette.ROOM.tint, **fine}),
+        ("Floor, predicted", {"fill": f"url(#predicted-{palette.ROOM.accent[1:]})", **fine}),
+        *((text, {"fill": tone.tint, "stroke": tone.accent, "stroke_width": 0.1}) for text, tone in floors),
+    ]
+
+
+def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+    with canvas.group(id="legend"):
+        _draw_rule(canvas, sheet, 1, x, y)
+        canvas.text("Legend", x, y + 6.2, BODY, font_weight="600")
+        entries = legend_entries(plan)
+        half = _width(sheet, 1) / 2
+        for i, (text, look) in enumerate(entries):
+            left, top = x + half * (i // 4), y + 9.4 + (i % 4) * 5.4
+            if text == "Floor, predicted":
+                canvas.box(left, top, *SWATCH, fill=palette.ROOM.tint)
+            canvas.box(left, top, *SWATCH, **look)
+            canvas.text(text, left + SWATCH[0] + 2, top + 2.4, BODY)
+        _draw_door_swatches(canvas, x + half, y + 9.4, len(entries) - 4)
+
+
+def _draw_door_swatches(canvas: SvgCanvas, x: float, y: float, row: int) -> None:
+    w, h = SWATCH
+    for i, (text, dashed) in enumerate((("Door", False), ("Opening", True))):
+        top = y + (row + i) * 5.4
+        canvas.box(x, top, w, h, fill=palette.DOOR.tint)
+        dash = "1.2 0.8" if dashed else None
+        for edge in (top, top + h):
+            canvas.line(
+                (x, edge), (x + w, edge), stroke=palette.DOOR.accent, stroke_width=0.2, stroke_dasharray=dash
+            )
+        canvas.text(text, x + w + 2, top + 2.4, BODY)
+
+
+def _draw_scale_bar(canvas: SvgCanvas, sheet: Sheet, x: float, y: float) -> None:
+    """Alternating fields; the longest round length that fits."""
+    _draw_rule(canvas, sheet, 2, x, y)
+    room = _width(sheet, 2) * BAR_SHARE
+    length = max((m for m in BAR_LENGTHS if m * sheet.mm <= room), default=BAR_LENGTHS[0])
+    fields = 4 if length % 5 else 5
+    field = length * sheet.mm / fields
+    top = y + 20.0
+    canvas.text(f"1:{sheet.scale}", x, y + 7.2, 3.2, font_weight="600")
+    for i in range(fields):
+        fill = palette.INK if i % 2 == 0 else palette.PAPER
+        canvas.box(x + i * field, top, field, 1.4, fill=fill, stroke=palette.INK, stroke_width=0.15)
+    for share, anchor in ((0, "start"), (0.5, "middle"), (1, "end")):
+        text = f"{length * share:g}" + (" m" if share == 1 else "")
+        if share != 0.5 or length > 1:
+            canvas.text(text, x + share * length * sheet.mm, top - 1.4, SMALL, text_anchor=anchor)
+
+
+def _draw_north(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+    """The direction of the world's +y axis."""
+    right, up = (plan.frame.rotation[:2, :2] @ (0.0, 1.0)).tolist()
+    turn = math.degrees(math.atan2(right, up))
+    cx, cy = x + _width(sheet, 2) - NORTH - 2.0, y + 15.5
+    r = NORTH
+    with canvas.group(id="north", transform=f"translate({cx:.3f} {cy:.3f})"):
+        canvas.add("circle", cx=0.0, cy=0.0, r=r, fill="none", stroke=palette.INK, stroke_width=0.18)
+        with canvas.group(transform=f"rotate({turn:.2f})"):
+            canvas.add(
+                "path", d=f"M0,{-r + 0.8}L{r * 0.34:.3f},{r * 0.62:.3f}L0,{r * 0.36:.3f}Z", fill=palette.INK
+            )
+            canvas.add(
+                "path",
+                d=f"M0,{-r + 0.8}L{-r * 0.34:.3f},{r * 0.62:.3f}L0,{r * 0.36:.3f}Z",
+                fill=palette.PAPER,
+                stroke=palette.INK,
+                stroke_width=0.15,
+            )
+            canvas.text("N", 0.0, -r - 1.0, 2.6, text_anchor="middle", font_weight="600")
+        canvas.text("north = world +y", 0.0, r + 6.0, SMALL, text_anchor="middle", fill=palette.GREY)

@@ -1,0 +1,119 @@
+"""Writing SVG: numbers, escaping, elements. Millimetres of paper, y down, three decimals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+FONT = "Inter, 'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
+# Widths in em, of the widest face in the font stack, so that text fits whichever face is there.
+NARROW, DIGIT, WIDE, USUAL = 0.36, 0.64, 0.98, 0.62
+
+
+def number(value: float) -> str:
+    """Three decimals, without trailing zeros or a negative zero."""
+    text = f"{value:.3f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def text_width(text: str, size: float) -> float:
+    """Estimated width of ``text`` in the unit of ``size``; never less than it takes in a usual sans face."""
+    return size * sum(_em(c) for c in text)
+
+
+def _em(c: str) -> float:
+    if c in "ilj.,:;|'!()[] ·":
+        return NARROW
+    if c.isdigit():
+        return DIGIT
+    return WIDE if c in "MWmw@%" or ord(c) > 0x2E7F else (DIGIT + 0.08 if c.isupper() else USUAL)
+
+
+def printable(text: str) -> str:
+    """``text`` without the control characters that XML cannot hold."""
+    return "".join(
+        c if (c >= " " and c not in "\x7f\ufffe\uffff") and not _surrogate(c) else " " for c in text
+    )
+
+
+def _surrogate(c: str) -> bool:
+    return "\ud800" <= c <= "\udfff"
+
+
+def attributes(values: dict[str, Any]) -> str:
+    """`` name="value"`` for each; underscores become hyphens, None is left out, numbers are formatted."""
+    parts = []
+    for name, value in values.items():
+        if value is None:
+            continue
+        shown = number(value) if isinstance(value, (int, float)) else printable(str(value))
+        parts.append(f" {name.rstrip('_').replace('_', '-')}={quoteattr(shown)}")
+    return "".join(parts)
+
+
+def polygon_path(geometry: Any) -> str:
+    """Path data of a shapely Polygon or MultiPolygon already in page coordinates."""
+    rings = []
+    for part in shapely.get_parts(geometry):
+        if part.geom_type == "Polygon" and not part.is_empty:
+            rings += [part.exterior, *part.interiors]
+    return "".join(_ring_path(shapely.get_coordinates(ring)[:-1]) for ring in rings)
+
+
+def _ring_path(points: Float) -> str:
+    return "M" + "L".join(f"{number(x)},{number(y)}" for x, y in points.tolist()) + "Z"
+
+
+class SvgCanvas:
+    """Collects elements in order; ``group`` nests them."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self._depth = 1
+
+    def add(self, name: str, content: str | None = None, **values: Any) -> None:
+        """One element; ``content`` is markup that is already escaped."""
+        end = "/>" if content is None else f">{content}</{name}>"
+        self.lines.append(f"{' ' * self._depth}<{name}{attributes(values)}{end}")
+
+    @contextmanager
+    def group(self, title: str | None = None, **values: Any) -> Iterator[None]:
+        """A ``<g>`` around what is added inside the ``with`` block."""
+        self.lines.append(f"{' ' * self._depth}<g{attributes(values)}>")
+        self._depth += 1
+        if title is not None:
+            self.title(title)
+        yield
+        self._depth -= 1
+        self.lines.append(f"{' ' * self._depth}</g>")
+
+    def title(self, text: str) -> None:
+        """A tooltip for the group that is open."""
+        self.lines.append(f"{' ' * self._depth}<title>{escape(printable(text))}</title>")
+
+    def area(self, geometry: Any, **values: Any) -> None:
+        """A filled shapely geometry; nothing where it is empty."""
+        data = polygon_path(geometry)
+        if data:
+            self.add("path", d=data, fill_rule="evenodd", **values)
+
+    def line(self, a: Sequence[float], b: Sequence[float], **values: Any) -> None:
+        """A straight line."""
+        self.add("line", x1=float(a[0]), y1=float(a[1]), x2=float(b[0]), y2=float(b[1]), **values)
+
+    def box(self, x: float, y: float, width: float, height: float, **values: Any) -> None:
+        """A rectangle."""
+        self.add("rect", x=x, y=y, width=width, height=height, **values)
+
+    def text(self, text: str, x: float, y: float, size: float, *, turn: float = 0.0, **values: Any) -> None:
+        """Text with its baseline at (x, y), turned clockwise by ``turn`` degrees about that point."""
+        about = f"rotate({number(turn)} {number(x)} {number(y)})" if turn else None
+        self.add("text", escape(printable(text)), x=x, y=y, font_size=size, transform=about, **values)

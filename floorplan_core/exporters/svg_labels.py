@@ -1,0 +1,71 @@
+"""Names, areas and inside dimensions of the regions, on free floor (page millimetres)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import shapely
+
+from floorplan_core.exporters import palette
+from floorplan_core.exporters.placement import LEADING, Line, Placed, place
+from floorplan_core.exporters.sheet import Sheet
+from floorplan_core.exporters.svg_canvas import SvgCanvas
+from floorplan_core.model import FloorPlan, Region
+
+NAME, AREA, NOTE = 2.7, 2.2, 1.75  # mm
+PAD = 0.9  # mm between text and wall
+RECTANGULAR = 0.995  # share of its bounds that a region fills to be called a rectangle
+CAP = 0.72  # height of capitals over font size
+ORDER = ("name", "area", "note")
+
+
+def draw_labels(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, swept: Any) -> None:
+    """A label for each region; ``swept`` is ground on the page that text keeps off."""
+    with canvas.group(id="labels", text_anchor="middle"):
+        for region in plan.regions:
+            floor = sheet.geometry(region.polygon)
+            _draw(canvas, _place(region, floor, swept), palette.tone(region.label).accent)
+
+
+def label_lines(region: Region) -> tuple[Line, ...]:
+    """Name with label, area, clear dimensions of a rectangle: the most important first."""
+    lines = [Line(display_name(region), NAME, "name"), Line(f"{region.area:.2f} m²", AREA, "area")]
+    if not region.name.isdigit():
+        lines.append(Line(region.label, NOTE, "note"))
+    x0, y0, x1, y1 = region.polygon.bounds
+    if region.area >= RECTANGULAR * (x1 - x0) * (y1 - y0):
+        lines.append(Line(f"{x1 - x0:.2f} × {y1 - y0:.2f}", NOTE, "note"))
+    return tuple(lines)
+
+
+def display_name(region: Region) -> str:
+    """``Room 3`` for a region that has only a number, else its name."""
+    return f"{region.label.capitalize()} {region.name}" if region.name.isdigit() else region.name
+
+
+def _place(region: Region, floor: Any, swept: Any) -> Placed:
+    free = _largest(floor.difference(swept)) if not swept.is_empty else floor
+    placed = place(label_lines(region), free, PAD)
+    if not placed.fits and region.name.isdigit():
+        placed = place((Line(region.name, NAME, "name"),), floor, PAD / 2)
+    return placed
+
+
+def _largest(geometry: Any) -> Any:
+    return max(shapely.get_parts(geometry), key=lambda part: part.area)
+
+
+def _draw(canvas: SvgCanvas, placed: Placed, accent: str) -> None:
+    """Lines under each other, centred on the spot as a block."""
+    styles: dict[str, dict[str, Any]] = {
+        "name": {"font_weight": "600", "fill": palette.INK},
+        "area": {"fill": palette.INK},
+        "note": {"fill": palette.GREY},
+    }
+    height = sum(line.size * LEADING for line in placed.lines)
+    offset = -height / 2
+    for line in placed.lines:
+        baseline = offset + line.size * (LEADING + CAP) / 2
+        x, y = (placed.x + baseline, placed.y) if placed.turned else (placed.x, placed.y + baseline)
+        canvas.text(line.text, x, y, line.size, turn=-90.0 if placed.turned else 0.0, **styles[line.style])
+        offset += line.size * LEADING
