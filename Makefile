@@ -1,0 +1,45 @@
+# Everything sets itself up in .venv; needs Python 3.11 or newer and make. `make help` lists the targets.
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+DEMO := demo-plan
+
+.PHONY: help setup demo test check format bench accuracy docs clean
+.DEFAULT_GOAL := help
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+
+setup: $(READY) ## the environment in .venv, with the system libraries it needs
+
+$(READY): pyproject.toml tools/set_up.sh tools/set_up.py
+	@sh tools/set_up.sh $(VENV)
+	@touch $@
+
+demo: $(READY) ## a floor plan of the bundled survey
+	$(BIN)/floorcast plan resources/sample_survey --out $(DEMO)
+
+test: $(READY) ## the whole test suite, offscreen
+	QT_QPA_PLATFORM=offscreen $(BIN)/python -m pytest
+
+check: $(READY) ## lint, format, types, architecture
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(READY) ## put the code into the house format
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(READY) ## stage times beside the time to read, growth, greedy against optimal
+	$(BIN)/python -m benchmarks
+
+accuracy: $(READY) ## plans of surveys with known truth, measured
+	$(BIN)/python -m benchmarks.accuracy
+
+docs: $(READY) ## pages that are written from the code
+	$(BIN)/floorcast settings --markdown > docs/settings.md
+
+clean: ## remove what make made
+	rm -rf $(VENV) $(DEMO) build dist
