@@ -108,7 +108,8 @@ def _local_chunk(raw: RawChunk, frame: LocalFrame) -> tuple[PointChunk, int]:
 def _report(name: str, left_out: int, unreadable: int, total: int, observer: Observer) -> None:
     if left_out:
         observer.warning(
-            f"{left_out:,} of the {total:,} points of {name} are not finite or absurdly far away; they were left out."
+            f"{left_out:,} of the {total:,} points of {name} are not finite or absurdly far away; "
+            "they were left out."
         )
     if unreadable:
         observer.warning(f"{unreadable:,} lines of {name} hold no point; they were left out.")
@@ -143,7 +144,10 @@ def _usable(scan_id: NDArray[np.int32] | None, rows: int, name: str) -> NDArray[
 
 def _shift_sentence(frame: LocalFrame, sample: RawChunk) -> str:
     x, y, z = frame.shift
-    text = f"Coordinates are large: ({x:.0f}, {y:.0f}, {z:.0f}) m is subtracted inside and restored in every export."
+    text = (
+        f"Coordinates are large: ({x:.0f}, {y:.0f}, {z:.0f}) m is subtracted inside "
+        "and restored in every export."
+    )
     if sample.points.dtype == np.float32:
         spacing = float(np.spacing(np.float32(np.abs(frame.shift).max() / frame.scale))) * frame.scale
         text += f" The file stores them in 32 bits, which resolves only {spacing:.3g} m there."

@@ -1,8 +1,8 @@
 """Which axis of a file is up, and in which unit it counts: guessed from a sample, stated, never silent.
 
-Up is the axis along which points lie in two flat outer layers (floor and ceiling), along which the building is
-low, and along which the sensor's path stays level. The unit is the one that makes storey height, extent and
-sensor height those of a building. Every term is a log-likelihood with a cap, so that no single oddity decides.
+Up is the axis along which points lie in two flat outer layers (floor and ceiling), along which the building
+is low, and along which the sensor's path stays level. The unit is the one that makes storey height, extent
+and sensor height those of a building. Every term is bounded, so that no single oddity decides.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None)
     scores += _level_scores(trajectory, float(extents.max()))
     upright = _upright(trajectory)
     scores += UPRIGHT_WEIGHT * np.abs(upright)
-    axis = max((2, 1, 0), key=lambda a: scores[a])
+    axis: int = max((2, 1, 0), key=lambda a: float(scores[a]))
     down = _is_upside_down(points[:, axis], layers[axis], float(upright[axis]))
     return ("-" if down else "") + "xyz"[axis]
 

@@ -45,7 +45,7 @@ def find_layers(values: Float) -> Layers:
     counts = np.bincount(index, minlength=BINS).astype(np.float64)
     triple = np.convolve(counts, np.ones(3), mode="same")
     peaks = _peaks(triple)
-    centres = low + width * (np.arange(BINS) + 0.5)
+    centres = np.asarray(low + width * (np.arange(BINS) + 0.5), dtype=np.float64)
     positions = np.array([_centre(centres, counts, p) for p in peaks])
     outside = 0.0
     if len(peaks):

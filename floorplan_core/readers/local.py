@@ -1,4 +1,4 @@
-"""File coordinates to local ones: metres, z up, without a large offset; float32 wherever that keeps millimetres."""
+"""File coordinates to local ones: metres, z up, no large offset; float32 where that keeps millimetres."""
 
 from __future__ import annotations
 
@@ -47,11 +47,12 @@ def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float |
 
 
 def _moved(points: NDArray[Any], frame: LocalFrame, T: Float) -> NDArray[np.float32]:
-    """Points of a sensor's frame: one affine map, built in float64, so that float32 sees small numbers only."""
+    """Points of a sensor's frame: one affine map built in float64, so that float32 sees small numbers."""
     matrix = frame.scale * frame.rotation @ T[:3, :3]
     offset = frame.scale * frame.rotation @ T[:3, 3] - frame.shift
     with np.errstate(over="ignore", invalid="ignore"):
-        return (points @ matrix.T.astype(points.dtype) + offset.astype(points.dtype)).astype(np.float32)
+        moved = points @ matrix.T.astype(points.dtype) + offset.astype(points.dtype)
+        return np.asarray(moved, dtype=np.float32)
 
 
 def keep_finite(points: NDArray[np.float32]) -> NDArray[np.bool_] | None:

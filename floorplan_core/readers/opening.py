@@ -14,6 +14,7 @@ from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Reader, ReadOptions
 from floorplan_core.readers.identify import identify
+from floorplan_core.readers.trajectory import looks_like_trajectory
 
 if TYPE_CHECKING:
     from floorplan_core.plugins import PluginRegistry
@@ -23,9 +24,13 @@ HEAD_BYTES = 4096
 
 def builtin_readers() -> tuple[Reader, ...]:
     """The readers of the formats that need nothing but numpy."""
+    from floorplan_core.readers.npz import NpzReader
+    from floorplan_core.readers.pcd import PcdReader
     from floorplan_core.readers.ply import PlyReader
+    from floorplan_core.readers.scans import ScanFolderReader
+    from floorplan_core.readers.text import TextReader
 
-    return (PlyReader(),)
+    return (PlyReader(), PcdReader(), NpzReader(), ScanFolderReader(), TextReader())
 
 
 def open_survey(
@@ -47,6 +52,9 @@ def open_survey(
     if options.trajectory is not None:
         check_is_file(options.trajectory, "trajectory")
     readers = registry.readers if registry is not None and registry.readers else builtin_readers()
+    if not head and not any(reader.sniff(path, head) > 0 for reader in readers):
+        path = find_cloud(path, readers)
+        head = read_head(path)
     reader = choose_reader(path, head, readers)
     try:
         opened = reader.open(path, options, observer)
@@ -66,6 +74,34 @@ def choose_reader(path: Path, head: bytes, readers: Sequence[Reader]) -> Reader:
     if best < 0 or scores[best] <= 0:
         raise InputError(_why_not(path, head, readers))
     return readers[best]
+
+
+def find_cloud(folder: Path, readers: Sequence[Reader]) -> Path:
+    """The one point cloud in a folder; :class:`InputError` where there is none, or a choice."""
+    suffixes = {suffix for reader in readers for suffix in reader.suffixes}
+    try:
+        files = [f for f in sorted(folder.iterdir()) if f.suffix.lower() in suffixes and f.is_file()]
+    except OSError as error:
+        raise InputError(f"Cannot read the folder {folder.name}: {error.strerror or error}.") from error
+    clouds = [f for f in files if not looks_like_trajectory(f) and _is_readable(f, readers)]
+    named = [f for f in clouds if f.stem == "points"]
+    if len(clouds) == 1 or len(named) == 1:
+        return (named or clouds)[0]
+    name = folder.name or str(folder)
+    if not clouds:
+        raise InputError(
+            f"The folder {name} holds no scans (numbered point clouds like 000000.ply) and no point cloud."
+        )
+    listed = ", ".join(f.name for f in clouds[:5]) + (", …" if len(clouds) > 5 else "")
+    raise InputError(f"The folder {name} holds {len(clouds)} point clouds ({listed}); name one of them.")
+
+
+def _is_readable(path: Path, readers: Sequence[Reader]) -> bool:
+    try:
+        head = read_head(path)
+    except InputError:
+        return False
+    return any(reader.sniff(path, head) > 0 for reader in readers)
 
 
 def read_head(path: Path) -> bytes:
@@ -114,8 +150,6 @@ def _kind(mode: int) -> str:
 
 def _why_not(path: Path, head: bytes, readers: Sequence[Reader]) -> str:
     known = ", ".join(reader.name for reader in readers)
-    if not head and path.is_dir():
-        return f"The folder {path.name or path} holds no scans (numbered point clouds like 000000.ply) and no point cloud."
     what = identify(head, path)
     if what:
         return f"{path.name} is {what}; readable are: {known}."
@@ -132,6 +166,4 @@ def _mislabelled(path: Path, reader: Reader, readers: Sequence[Reader]) -> tuple
     claims = [other.name for other in readers if suffix in other.suffixes]
     if not claims:
         return ()
-    return (
-        f"{path.name} is named like a {claims[0]} file but holds {reader.name}; it was read as what it holds.",
-    )
+    return (f"{path.name} is named like a {claims[0]} file but holds {reader.name}; it was read as that.",)

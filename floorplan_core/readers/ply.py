@@ -14,10 +14,10 @@ from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name,
 from floorplan_core.readers.ply_header import MAX_HEADER_BYTES, PlyElement, PlyHeader, parse_ply_header
 from floorplan_core.readers.ply_lists import constant_record, skip_list_element
 from floorplan_core.readers.records import RecordLayout, record_chunks, record_sample, scan_ids_of
-from floorplan_core.readers.source import PointSource
+from floorplan_core.readers.source import EmptyInput, PointSource
 from floorplan_core.readers.text_rows import (
     TextLayout,
-    count_lines,
+    find_rows,
     skip_lines,
     text_chunks,
     text_sample,
@@ -49,7 +49,7 @@ def ply_source(path: Path) -> PointSource:
         names = ", ".join(e.name for e in header.elements) or "none"
         raise InputError(f"{path.name} is a PLY file without vertices (its elements: {names}).")
     if vertex.count == 0:
-        raise InputError(f"{path.name} is a PLY file of 0 points.")
+        raise EmptyInput(f"{path.name} is a PLY file of 0 points.")
     return _binary_source(path, header, vertex) if header.byte_order else _text_source(path, header, vertex)
 
 
@@ -96,7 +96,7 @@ def _text_source(path: Path, header: PlyHeader, vertex: PlyElement) -> PointSour
     names = _text_columns(path, vertex)
     before = sum(e.count for e in header.elements[: header.elements.index(vertex)])
     offset = skip_lines(path, header.size, min(before, path.stat().st_size))
-    present = count_lines(path, offset, vertex.count)
+    present, end = find_rows(path, offset, vertex.count)
     if present < vertex.count:
         raise InputError(
             f"{path.name} is truncated: its header promises {vertex.count:,} points, "
@@ -110,7 +110,7 @@ def _text_source(path: Path, header: PlyHeader, vertex: PlyElement) -> PointSour
         (x, y, z),
         None if scan_id is None else names.index(scan_id),
         None if stamp is None else names.index(stamp),
-        count=vertex.count,
+        end=end,
     )
     return PointSource(
         path,
@@ -137,6 +137,7 @@ def _coordinates(path: Path, names: list[str]) -> tuple[str, str, str]:
     xyz = find_xyz(names)
     if xyz is None:
         raise InputError(
-            f"{path.name} has no coordinates: its points have {', '.join(names) or 'no properties'}, not x, y, z."
+            f"{path.name} has no coordinates: its points have {', '.join(names) or 'no properties'}, "
+            "not x, y, z."
         )
     return xyz

@@ -79,7 +79,8 @@ def parse_ply_header(head: bytes, name: str) -> PlyHeader:
 
 def _header_lines(head: bytes, name: str) -> tuple[list[tuple[int, str]], int]:
     """Numbered lines between 'ply' and 'end_header', and the bytes that they take."""
-    lines, start = [], 0
+    lines: list[tuple[int, str]] = []
+    start = 0
     while True:
         end = head.find(b"\n", start)
         if end < 0:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import FileIO
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,7 +101,7 @@ def join_chunks(parts: list[RawChunk]) -> RawChunk:
     )
 
 
-def _read_columns(handle: BinaryIO | Any, path: Path, layout: RecordLayout, count: int) -> RawChunk:
+def _read_columns(handle: FileIO, path: Path, layout: RecordLayout, count: int) -> RawChunk:
     points = np.empty((count, 3), dtype=layout.point_dtype)
     ids = None if layout.scan_id is None else np.empty(count, dtype=np.int32)
     stamps = None if layout.stamp is None else np.empty(count, dtype=np.float64)
@@ -117,11 +118,11 @@ def _read_columns(handle: BinaryIO | Any, path: Path, layout: RecordLayout, coun
     return RawChunk(points, ids, stamps)
 
 
-def _buffers(handle: BinaryIO | Any, path: Path, layout: RecordLayout, count: int) -> Iterator[NDArray[Any]]:
+def _buffers(handle: FileIO, path: Path, layout: RecordLayout, count: int) -> Iterator[NDArray[Any]]:
     """``count`` records from the present place, in one buffer that is used again: copy what you keep."""
     size = layout.dtype.itemsize
     buffer = np.empty(max(1, min(count, BUFFER_BYTES // size)), dtype=layout.dtype)
-    raw = memoryview(buffer.view(np.uint8).reshape(-1))
+    raw = buffer.view(np.uint8).reshape(-1).data
     left = count
     while left:
         rows = min(left, len(buffer))
@@ -131,7 +132,7 @@ def _buffers(handle: BinaryIO | Any, path: Path, layout: RecordLayout, count: in
         left -= rows
 
 
-def _read_fully(handle: BinaryIO | Any, target: memoryview) -> int:
+def _read_fully(handle: FileIO, target: memoryview) -> int:
     done = 0
     while done < len(target):
         read = handle.readinto(target[done:])

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floorplan_core.errors import InputError
 from floorplan_core.model import Trajectory
 
 Float = NDArray[np.float64]
@@ -22,6 +23,10 @@ Float = NDArray[np.float64]
 CHUNK_POINTS = 1 << 20  # points of a chunk: 16 MB, small enough to cancel between, large enough for numpy
 SAMPLE_POINTS = 1 << 16  # points from which unit and axes are guessed: a few milliseconds of work
 SAMPLE_BLOCKS = 128  # places of a file from which the sample is taken, so that it covers the whole run
+
+
+class EmptyInput(InputError):
+    """The file is what it claims to be and holds no points; a folder of scans goes on to the next."""
 
 
 @dataclass(frozen=True)

@@ -35,31 +35,25 @@ class TextLayout:
     stamp: int | None = None
     separator: str = " "  # " ", "," or ";"; spaces and tabs always separate, too
     decimal_comma: bool = False
-    count: int | None = None  # rows, where the header says so; what follows is not ours
+    end: int | None = None  # byte after the last row, where something else may follow
 
 
 def text_chunks(path: Path, layout: TextLayout) -> Iterator[RawChunk]:
     """All rows, a block of text at a time."""
-    left = layout.count
-    for block in _line_blocks(path, layout.offset):
-        if left is not None and left <= 0:
-            return
-        chunk = parse_block(block, layout, left)
-        if left is not None:
-            left -= len(chunk.points) + chunk.dropped
-        yield chunk
+    for block in _line_blocks(path, layout.offset, layout.end):
+        yield parse_block(block, layout)
 
 
 def text_sample(path: Path, layout: TextLayout) -> RawChunk:
     """About ``SAMPLE_POINTS`` rows in blocks that are spread evenly over the file."""
-    size = path.stat().st_size
+    end = path.stat().st_size if layout.end is None else layout.end
     # 32 bytes are a usual row of three coordinates; longer rows only make the sample smaller.
     block = SAMPLE_POINTS // SAMPLE_BLOCKS * 32
-    if size - layout.offset <= block * SAMPLE_BLOCKS or layout.count is not None:
-        return parse_block(next(_line_blocks(path, layout.offset), b""), layout, layout.count)
+    if end - layout.offset <= block * SAMPLE_BLOCKS:
+        return parse_block(b"".join(_line_blocks(path, layout.offset, layout.end)), layout)
     parts = []
     with path.open("rb") as handle:
-        for start in np.linspace(layout.offset, size - block, SAMPLE_BLOCKS).astype(np.int64).tolist():
+        for start in np.linspace(layout.offset, end - block, SAMPLE_BLOCKS).astype(np.int64).tolist():
             handle.seek(start)
             if start != layout.offset:
                 handle.readline(MAX_LINE_BYTES)
@@ -78,14 +72,22 @@ def text_scan_ids(path: Path, layout: TextLayout) -> ScanIds | None:
     return ScanIds(int(ids.min()), int(ids.max()), bool((ids[1:] >= ids[:-1]).all()))
 
 
-def count_lines(path: Path, offset: int, limit: int) -> int:
-    """Lines that hold anything from ``offset`` on, at most ``limit``."""
-    lines = 0
-    for block in _line_blocks(path, offset):
-        lines += sum(1 for line in block.splitlines() if line.strip())
-        if lines >= limit:
-            return limit
-    return lines
+def find_rows(path: Path, offset: int, count: int) -> tuple[int, int]:
+    """How many of ``count`` lines that hold anything follow ``offset``, and the byte after them."""
+    found, end = 0, offset
+    for block in _line_blocks(path, offset, None):
+        lines = block.splitlines(keepends=True)
+        held = sum(1 for line in lines if line.strip())
+        if found + held < count:
+            found, end = found + held, end + len(block)
+            continue
+        for line in lines:
+            if found == count:
+                break
+            found += bool(line.strip())
+            end += len(line)
+        break
+    return found, end
 
 
 def skip_lines(path: Path, offset: int, count: int) -> int:
@@ -98,10 +100,8 @@ def skip_lines(path: Path, offset: int, count: int) -> int:
         return handle.tell()
 
 
-def parse_block(block: bytes, layout: TextLayout, limit: int | None = None) -> RawChunk:
-    """Points of whole lines; at most ``limit`` lines."""
-    if limit is not None and block.count(b"\n") > limit:
-        block = b"\n".join(block.split(b"\n", limit)[:limit]) + b"\n"
+def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
+    """Points of whole lines."""
     text = normalise(block, layout)
     rows = _parse_at_once(text, layout)
     return _rows_to_chunk(rows, layout) if rows is not None else _parse_lines(text, layout)
@@ -128,23 +128,24 @@ def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:
 
 
 def _parse_lines(text: bytes, layout: TextLayout) -> RawChunk:
-    rows, dropped = [], 0
+    values, dropped = [], 0
     used = [c for c in (*layout.xyz, layout.scan_id, layout.stamp) if c is not None]
     for line in text.splitlines():
         words = line.split(b"#", 1)[0].split()
         if not words or words[0].startswith(b"//"):
             continue
         try:
-            row = np.full(layout.columns, np.nan)
-            row[used] = [float(words[c]) for c in used]
-            rows.append(row)
+            values.append([float(words[c]) for c in used])
         except (IndexError, ValueError):
             dropped += 1
-    return _rows_to_chunk(np.array(rows) if rows else _no_rows(layout), layout, dropped)
+    rows = _no_rows(layout, len(values))
+    if values:
+        rows[:, used] = values
+    return _rows_to_chunk(rows, layout, dropped)
 
 
-def _no_rows(layout: TextLayout) -> Float:
-    return np.empty((0, layout.columns))
+def _no_rows(layout: TextLayout, count: int = 0) -> Float:
+    return np.full((count, layout.columns), np.nan)
 
 
 def _rows_to_chunk(rows: Float, layout: TextLayout, dropped: int = 0) -> RawChunk:
@@ -153,12 +154,14 @@ def _rows_to_chunk(rows: Float, layout: TextLayout, dropped: int = 0) -> RawChun
     return RawChunk(rows[:, layout.xyz], ids, stamps, dropped=dropped)
 
 
-def _line_blocks(path: Path, offset: int) -> Iterator[bytes]:
-    """Blocks of whole lines from ``offset``; a line without end of more than a block is cut there."""
+def _line_blocks(path: Path, offset: int, end: int | None) -> Iterator[bytes]:
+    """Blocks of whole lines from ``offset`` to ``end``; a line longer than a block is cut there."""
+    left = (path.stat().st_size if end is None else end) - offset
     with path.open("rb") as handle:
         handle.seek(offset)
         rest = b""
-        while data := handle.read(BLOCK_BYTES):
+        while left > 0 and (data := handle.read(min(BLOCK_BYTES, left))):
+            left -= len(data)
             if b"\n" not in data and b"\r" in data:
                 data = data.replace(b"\r", b"\n")  # old Macintosh line ends
             cut = data.rfind(b"\n") + 1

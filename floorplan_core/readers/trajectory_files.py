@@ -22,7 +22,7 @@ RANGE_FACTOR = 1.5  # the median point may be this many times the maximum range 
 
 
 def find_trajectory(cloud: Path) -> Path | None:
-    """The trajectory beside a cloud: of its own stem, of the form trajectory3d for points3d, or the plain one."""
+    """The trajectory beside a cloud: of its own stem, trajectory3d for points3d, or the plain one."""
     stems = [cloud.stem]
     kind = re.match(r"points(\w*?)(_.*)?$", cloud.stem)
     if kind and kind.group(1):

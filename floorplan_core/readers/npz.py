@@ -1,0 +1,106 @@
+"""NPZ and NPY: arrays of points, streamed from the archive; pickled objects are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from floorplan_core.errors import InputError
+from floorplan_core.model import Reconstruction
+from floorplan_core.observer import Observer
+from floorplan_core.plugins import ReadOptions
+from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name
+from floorplan_core.readers.npz_arrays import StoredArray, list_arrays
+from floorplan_core.readers.records import as_scan_id, join_chunks
+from floorplan_core.readers.source import (
+    CHUNK_POINTS,
+    SAMPLE_POINTS,
+    EmptyInput,
+    PointSource,
+    RawChunk,
+    ScanIds,
+)
+
+POINT_NAMES = (
+    "points", "xyz", "pts", "positions", "position", "coords", "coordinates", "vertices", "cloud", "centers",
+    "pos", "arr_0",
+)  # fmt: skip
+
+
+class NpzReader:
+    """Point clouds in numpy's own files."""
+
+    name = "NPZ"
+    suffixes: tuple[str, ...] = (".npz", ".npy")
+    description = "numpy arrays: points (N, 3), optional scan_id (N,)"
+
+    def sniff(self, path: Path, head: bytes) -> float:
+        """1 for an array; 0.9 for an archive whose first member is one."""
+        if head.startswith(b"\x93NUMPY"):
+            return 1.0
+        return 0.9 if head.startswith(b"PK\x03\x04") and b".npy" in head[:512] else 0.0
+
+    def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
+        """Open the file; :class:`InputError` where it holds no array of points."""
+        return assemble(npz_source(path), options, observer)
+
+
+def npz_source(path: Path) -> PointSource:
+    """The points of an NPZ or NPY file."""
+    arrays = list_arrays(path)
+    points = _points_array(path, arrays)
+    columns = [points]
+    names = [name for name in arrays if arrays[name] is not points]
+    scan_id, stamp = find_name(names, SCAN_ID_NAMES), find_name(names, STAMP_NAMES)
+    for name in (scan_id, stamp):
+        if name is not None and arrays[name].shape not in ((points.shape[0],), (points.shape[0], 1)):
+            raise InputError(
+                f"{path.name} has {points.shape[0]:,} points but {name!r} has the shape {arrays[name].shape}."
+            )
+    columns += [arrays[name] for name in (scan_id, stamp) if name is not None]
+    chunks = partial(_chunks, columns, scan_id is not None, stamp is not None)
+    sample, ids = _inspect(chunks(), points.shape[0])
+    return PointSource(path, "NPZ", chunks, lambda: sample, points.shape[0], scan_id is not None, ids)
+
+
+def _points_array(path: Path, arrays: dict[str, StoredArray]) -> StoredArray:
+    """The array of the usual names, else the only one of the right shape."""
+    fitting = {name: a for name, a in arrays.items() if a.is_points}
+    name = find_name(fitting, POINT_NAMES)
+    if name is None and len(fitting) == 1:
+        name = next(iter(fitting))
+    if name is None:
+        shapes = ", ".join(f"{n} {a.shape}" for n, a in list(arrays.items())[:8]) or "none"
+        raise InputError(f"{path.name} holds no array of points of shape (N, 3); its arrays: {shapes}.")
+    if fitting[name].shape[0] == 0:
+        raise EmptyInput(f"{path.name} holds 0 points.")
+    return fitting[name]
+
+
+def _chunks(columns: list[StoredArray], has_scan_id: bool, has_stamps: bool) -> Iterator[RawChunk]:
+    """Equal rows of all columns; the archive's members are read side by side."""
+    for parts in zip(*(column.rows(CHUNK_POINTS) for column in columns), strict=True):
+        rest = list(parts[1:])
+        ids = as_scan_id(rest.pop(0).reshape(-1)) if has_scan_id else None
+        stamps = rest.pop(0).reshape(-1).astype(np.float64) if has_stamps else None
+        points = parts[0][:, :3]
+        small = points.dtype.itemsize <= 2 or points.dtype == np.float32
+        yield RawChunk(points.astype(np.float32 if small else np.float64), ids, stamps)
+
+
+def _inspect(chunks: Iterator[RawChunk], count: int) -> tuple[RawChunk, ScanIds | None]:
+    """A strided sample and the range of the scan ids: one pass, because archives cannot be sought in."""
+    stride = max(1, -(-count // SAMPLE_POINTS))
+    parts, lowest, highest, ordered = [], np.iinfo(np.int32).max, -1, True
+    last: int | None = None
+    for chunk in chunks:
+        ids = chunk.scan_id
+        parts.append(RawChunk(chunk.points[::stride], None if ids is None else ids[::stride]))
+        if ids is not None:
+            ordered = ordered and bool((ids[1:] >= ids[:-1]).all()) and (last is None or last <= ids[0])
+            last, lowest, highest = int(ids[-1]), min(lowest, int(ids.min())), max(highest, int(ids.max()))
+    return join_chunks(parts), None if last is None else ScanIds(lowest, highest, ordered)

@@ -1,0 +1,149 @@
+"""Arrays inside NPZ and NPY files as streams of rows: nothing is allocated that the file cannot fill."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import prod
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.lib import format as npy_format
+from numpy.typing import NDArray
+
+from floorplan_core.errors import InputError
+
+MAX_MEMBERS = 10_000
+MAX_RATIO = 200  # unpacked to packed bytes: coordinates never compress like that, bombs do
+BOMB_BYTES = 1 << 28  # smaller members may compress as well as they like
+PLAIN_KINDS = "fiu"
+
+
+@dataclass(frozen=True)
+class StoredArray:
+    """The header of one stored array and where it is."""
+
+    path: Path
+    member: str | None  # of the archive; None for a bare NPY file
+    name: str
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    fortran: bool
+
+    @property
+    def is_points(self) -> bool:
+        """True for (N, 3) or wider plain numbers."""
+        return len(self.shape) == 2 and 3 <= self.shape[1] <= 64 and self.dtype.kind in PLAIN_KINDS
+
+    def rows(self, count: int) -> Iterator[NDArray[Any]]:
+        """Blocks of at most ``count`` rows, in order."""
+        width = prod(self.shape[1:])
+        if self.fortran and width > 1:
+            yield from self._rows_by_column(count, width)
+            return
+        with _open(self.path, self.member) as stream:
+            _read_header(stream, self.path.name)
+            for start in range(0, self.shape[0], count):
+                rows = min(count, self.shape[0] - start)
+                yield self._read(stream, rows * width).reshape(rows, *self.shape[1:])
+
+    def _rows_by_column(self, count: int, width: int) -> Iterator[NDArray[Any]]:
+        """Fortran order keeps column after column: as many streams as columns that we use."""
+        from contextlib import ExitStack
+
+        with ExitStack() as stack:
+            streams = [stack.enter_context(_open(self.path, self.member)) for _ in range(min(3, width))]
+            for column, stream in enumerate(streams):
+                _read_header(stream, self.path.name)
+                stream.seek(column * self.shape[0] * self.dtype.itemsize, 1)
+            for start in range(0, self.shape[0], count):
+                rows = min(count, self.shape[0] - start)
+                yield np.column_stack([self._read(stream, rows) for stream in streams])
+
+    def _read(self, stream: IO[bytes], items: int) -> NDArray[Any]:
+        wanted = items * self.dtype.itemsize
+        try:
+            raw = stream.read(wanted)
+        except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
+            raise InputError(f"{self.path.name} is damaged: {self.name!r} cannot be unpacked.") from error
+        if len(raw) < wanted:
+            raise _truncated(self.path, self.name, self.shape)
+        return np.frombuffer(raw, dtype=self.dtype)
+
+
+def list_arrays(path: Path) -> dict[str, StoredArray]:
+    """The arrays of plain numbers by name; :class:`InputError` for damaged files and zip bombs."""
+    with path.open("rb") as handle:
+        if handle.read(2) != b"PK":
+            handle.seek(0)
+            stored = _stored(handle, path, None, path.stem)
+            _check_size(stored, path.stat().st_size - handle.tell())
+            return {stored.name: stored}
+    arrays = {}
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for info in archive.infolist()[:MAX_MEMBERS]:
+                if not info.filename.endswith(".npy"):
+                    continue
+                _refuse_bomb(path, info)
+                with archive.open(info) as stream:
+                    stored = _stored(stream, path, info.filename, info.filename.removesuffix(".npy"))
+                    if stored.dtype.kind in PLAIN_KINDS:
+                        _check_size(stored, info.file_size - stream.tell())
+                        arrays[stored.name] = stored
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+        raise InputError(f"{path.name} is truncated or damaged: {str(error)[:80]}.") from error
+    return arrays
+
+
+def _stored(stream: IO[bytes], path: Path, member: str | None, name: str) -> StoredArray:
+    shape, fortran, dtype = _read_header(stream, path.name)
+    if dtype.hasobject:
+        raise InputError(
+            f"{path.name} holds pickled objects ({name!r}), which are refused because reading them could run "
+            "code; save plain arrays of numbers."
+        )
+    return StoredArray(path, member, name, shape, dtype, fortran)
+
+
+def _read_header(stream: IO[bytes], name: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    try:
+        version = npy_format.read_magic(stream)
+        read = npy_format.read_array_header_1_0 if version == (1, 0) else npy_format.read_array_header_2_0
+        shape, fortran, dtype = read(stream)
+    except (ValueError, TypeError, SyntaxError, EOFError, zlib.error, RecursionError) as error:
+        raise InputError(f"{name} is not a valid numpy file: {str(error).splitlines()[0][:80]}.") from error
+    if any(size < 0 for size in shape):
+        raise InputError(f"{name} is not a valid numpy file: an array has the shape {shape}.")
+    return shape, fortran, dtype
+
+
+def _check_size(stored: StoredArray, there: int) -> None:
+    if prod(stored.shape) * stored.dtype.itemsize > there:
+        raise _truncated(stored.path, stored.name, stored.shape)
+
+
+def _truncated(path: Path, name: str, shape: tuple[int, ...]) -> InputError:
+    return InputError(
+        f"{path.name} is truncated: its array {name!r} should have the shape {shape}, "
+        "the file holds less; copy it again."
+    )
+
+
+def _refuse_bomb(path: Path, info: zipfile.ZipInfo) -> None:
+    if info.file_size > max(BOMB_BYTES, MAX_RATIO * max(1, info.compress_size)):
+        raise InputError(
+            f"{path.name} was refused: {info.filename} unpacks from {info.compress_size:,} to "
+            f"{info.file_size:,} bytes, which no point cloud does."
+        )
+
+
+def _open(path: Path, member: str | None) -> IO[bytes]:
+    """A stream over the member (or file); closing it closes the archive, too."""
+    if member is None:
+        return path.open("rb")
+    with zipfile.ZipFile(path) as archive:  # the open member keeps the archive's file alive
+        return archive.open(member)

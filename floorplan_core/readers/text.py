@@ -1,0 +1,179 @@
+"""XYZ, PTS, TXT and CSV text: columns told apart by content, with or without header, count or comments."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from floorplan_core.errors import InputError
+from floorplan_core.model import Reconstruction
+from floorplan_core.observer import Observer
+from floorplan_core.plugins import ReadOptions
+from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
+from floorplan_core.readers.source import PointSource
+from floorplan_core.readers.text_rows import (
+    TextLayout,
+    text_chunks,
+    text_sample,
+    text_scan_ids,
+)
+
+HEAD_BYTES = 1 << 16
+MIN_ROWS = 3  # of the first lines that must be points before a file is called a text cloud
+COMMENTS = ("#", "//", "%")
+DECIMAL_COMMA = re.compile(r"^[+-]?\d+,\d+$")
+
+
+@dataclass(frozen=True)
+class TextForm:
+    """How a text file is laid out, read from its first lines."""
+
+    names: tuple[str, ...]  # of the columns; () where there is no header line
+    columns: int
+    separator: str
+    decimal_comma: bool
+    count: int | None  # of a line with a single number before the points
+    offset: int  # bytes before the first row
+
+
+class TextReader:
+    """Text with one point a line."""
+
+    name = "XYZ"
+    suffixes: tuple[str, ...] = (".xyz", ".pts", ".txt", ".csv", ".asc", ".xyzrgb", ".xyzn")
+    description = "Text, one point a line: XYZ, PTS, TXT, CSV"
+
+    def sniff(self, path: Path, head: bytes) -> float:
+        """0.6 with one of our suffixes, else 0.3, where the first lines are rows of three numbers or more."""
+        form = read_form(head)
+        if form is None or path.suffix.lower() == ".tum":
+            return 0.0
+        return 0.6 if path.suffix.lower() in self.suffixes else 0.3
+
+    def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
+        """Open the file; :class:`InputError` where its lines are no points."""
+        return assemble(text_source(path), options, observer)
+
+
+def text_source(path: Path) -> PointSource:
+    """The points of a text file."""
+    with path.open("rb") as handle:
+        form = read_form(handle.read(HEAD_BYTES))
+    if form is None:
+        raise InputError(f"{path.name} holds no lines of three numbers or more.")
+    layout = _layout(path, form)
+    notes: tuple[str, ...] = ()
+    if form.count is not None:
+        notes = (f"{path.name} announces {form.count:,} points; what its lines hold is what counts.",)
+    if form.decimal_comma:
+        notes = (*notes, f"Commas in {path.name} are decimal commas.")
+    return PointSource(
+        path,
+        "XYZ",
+        partial(text_chunks, path, layout),
+        partial(text_sample, path, layout),
+        None,
+        layout.scan_id is not None,
+        text_scan_ids(path, layout),
+        notes=notes,
+    )
+
+
+def read_form(head: bytes) -> TextForm | None:
+    """The layout of the first lines; None where they are no rows of numbers."""
+    if b"\x00" in head:
+        return None
+    try:
+        text = head.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = head.decode("latin-1")
+        if sum(not (c.isprintable() or c in "\t\r\n") for c in text[:1024]) > 0:
+            return None
+    lines = _complete_lines(text, len(head))
+    names: tuple[str, ...] = ()
+    count: int | None = None
+    offset = len(head) - len(text.encode("utf-8")) if head.startswith(b"\xef\xbb\xbf") else 0
+    rows: list[str] = []
+    for line in lines:
+        stripped = line.strip()
+        if not rows and _numbers(stripped) is None:
+            words = _header_words(stripped)
+            if find_xyz(words) is not None:
+                names = words
+            elif stripped.isdigit():
+                count = int(stripped)
+            elif stripped and not stripped.startswith(COMMENTS) and (names or count or len(words) < 2):
+                return None
+            offset += len(line.encode("utf-8"))
+            continue
+        if stripped and not stripped.startswith(COMMENTS):
+            rows.append(stripped)
+    return _form(rows, names, count, offset, whole=len(lines))
+
+
+def _form(
+    rows: list[str], names: tuple[str, ...], count: int | None, offset: int, whole: int
+) -> TextForm | None:
+    parsed = [_numbers(row) for row in rows]
+    good = [p for p in parsed if p is not None]
+    if len(good) < min(MIN_ROWS, max(1, len(rows))) or 2 * len(good) < len(parsed):
+        return None
+    separator, comma, columns = good[0]
+    return TextForm(names, columns, separator, comma, count, offset)
+
+
+def _complete_lines(text: str, read: int) -> list[str]:
+    """Lines with their ends; the last one only where the text is not cut off within it."""
+    lines = text.splitlines(keepends=True)
+    whole = read < 4096 or not lines or lines[-1].endswith(("\n", "\r"))
+    return lines if whole else lines[:-1]
+
+
+def _numbers(line: str) -> tuple[str, bool, int] | None:
+    """(separator, decimal comma?, columns) of a line that begins with three finite numbers; else None."""
+    for separator, comma in _readings(line):
+        words = line.replace(separator, " ").split() if separator != " " else line.split()
+        if len(words) >= 3 and all(_is_number(w.replace(",", ".") if comma else w) for w in words[:3]):
+            return separator, comma, len(words)
+    return None
+
+
+def _readings(line: str) -> list[tuple[str, bool]]:
+    """Separators and decimal signs that a line allows, the likeliest first."""
+    if ";" in line:
+        return [(";", "," in line)]
+    if "," not in line:
+        return [(" ", False)]
+    words = line.split()
+    commas_are_decimal = len(words) >= 3 and all(DECIMAL_COMMA.match(w) or _is_number(w) for w in words[:3])
+    return [(" ", True)] if commas_are_decimal else [(",", False)]
+
+
+def _is_number(word: str) -> bool:
+    try:
+        return not math.isnan(float(word)) or word.lower() == "nan"
+    except ValueError:
+        return False
+
+
+def _header_words(line: str) -> tuple[str, ...]:
+    clean = line.lstrip("#/% ").replace(";", " ").replace(",", " ").replace('"', "")
+    return tuple(clean.split())
+
+
+def _layout(path: Path, form: TextForm) -> TextLayout:
+    x, y, z, scan_id, stamp = 0, 1, 2, None, None
+    if form.names and len(form.names) <= form.columns:
+        found = find_xyz(form.names)
+        if found is not None:
+            x, y, z = (form.names.index(name) for name in found)
+        scan_name, stamp_name = find_name(form.names, SCAN_ID_NAMES), find_name(form.names, STAMP_NAMES)
+        scan_id = None if scan_name is None else form.names.index(scan_name)
+        stamp = None if stamp_name is None else form.names.index(stamp_name)
+    return TextLayout(
+        form.offset, form.columns, (x, y, z), scan_id, stamp, form.separator, form.decimal_comma
+    )
