@@ -76,5 +76,9 @@ def _visible(
     face: float, start: float, end: float, edges: Sequence[tuple[float, float, float]], sign: int
 ) -> float:
     """Metres of the face with no other face in front of it."""
-    front = [shapely.box(a, 0, b, 1) for f, a, b in edges if sign * (f - face) > STRAIGHT]
-    return float(shapely.box(start, 0, end, 1).difference(shapely.union_all(front)).area)
+    front = sorted((a, b) for f, a, b in edges if sign * (f - face) > STRAIGHT and a < end and b > start)
+    seen, at = 0.0, start
+    for a, b in front:
+        seen += max(0.0, a - at)
+        at = max(at, b)
+    return seen + max(0.0, end - at)

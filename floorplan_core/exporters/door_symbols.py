@@ -1,8 +1,8 @@
 """Door leaves and their swing: which way a door is drawn to open. Metres, manhattan frame.
 
 A survey does not show it, so the drawing follows the usual convention: into a room rather than a corridor,
-the hinge at the jamb nearer to a corner, the leaf clear of walls. Ties: towards the lower coordinate, hinge at
-the start.
+the hinge at the jamb nearer to a corner, the leaf clear of walls. Ties: towards the lower coordinate, hinge
+at the start.
 """
 
 from __future__ import annotations
@@ -47,8 +47,10 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
     if opening.door.kind != "door":
         return ()
     options = []
+    polygons = np.array([r.polygon for r in regions], dtype=object)
     for direction in (-1, 1):
-        region = _region_at(_beyond(opening, direction), regions)
+        inside = np.flatnonzero(shapely.contains_xy(polygons, *_beyond(opening, direction)))
+        region = regions[int(inside[0])] if len(inside) else None
         for hinge in ("start", "end"):
             made = _make(opening, direction, hinge)
             options.append((_cost(opening, made, region, hinge), len(options), made))
@@ -61,8 +63,8 @@ def _cost(
     """Smaller is better: outside the plan, hits a wall, opens into a corridor, far from a corner."""
     if region is None:
         return True, True, True, 0.0
-    swept = shapely.union_all([leaf.sector for leaf in made])
-    clear = region.polygon.intersection(swept).area >= CLEAR * swept.area
+    sectors = [leaf.sector for leaf in made]
+    clear = all(region.polygon.intersection(s).area >= CLEAR * s.area for s in sectors)
     return False, not clear, region.label != "room", _to_corner(opening, region, hinge)
 
 
@@ -82,10 +84,6 @@ def _beyond(opening: Opening, direction: int) -> Float:
     point[1 - axis] = (opening.door.start + opening.door.end) / 2
     point[axis] = opening.bounds[axis + 2 * (direction > 0)] + direction * REACH
     return point
-
-
-def _region_at(point: Float, regions: Sequence[Region]) -> Region | None:
-    return next((r for r in regions if shapely.contains_xy(r.polygon, *point)), None)
 
 
 def _make(opening: Opening, direction: int, hinge: str) -> tuple[Leaf, ...]:

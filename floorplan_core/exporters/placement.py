@@ -48,9 +48,12 @@ def block_size(lines: Sequence[Line]) -> tuple[float, float]:
     return max(text_width(line.text, line.size) for line in lines), sum(line.size * LEADING for line in lines)
 
 
-def place(lines: Sequence[Line], free: Any, pad: float) -> Placed:
-    """Put as many of ``lines`` as fit, from the first on, as large as fits, ``pad`` away from walls."""
-    spots = _spots(free)
+def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Placed:
+    """Put as many of ``lines`` as fit, from the first on, as large as fits, ``pad`` away from walls.
+
+    ``free`` is a polygon inside ``floor``, whose corners tell where its arms run.
+    """
+    spots = _spots(free, free if floor is None else floor)
     for count in range(len(lines), 0, -1):
         for shrink in SHRINK:
             scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
@@ -74,17 +77,22 @@ def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float) -> Placed
     return None
 
 
-def _spots(free: Any) -> Float:
+def _spots(free: Any, floor: Any) -> Float:
     """(K, 2) candidate centres, best first; ties by row."""
     shapely.prepare(free)
-    x0, y0, x1, y1 = free.bounds
-    steps = (np.arange(GRID) + 0.5) / GRID
-    gx, gy = np.meshgrid(x0 + steps * (x1 - x0), y0 + steps * (y1 - y0))
-    grid = np.column_stack([gx.ravel(), gy.ravel()])
+    corners = shapely.get_coordinates(floor)
+    grid = np.stack(np.meshgrid(_ticks(corners[:, 0]), _ticks(corners[:, 1])), axis=-1).reshape(-1, 2)
     home = _home(free)
     inside = grid[shapely.contains_xy(free, grid)]
     near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
     return np.vstack([home[None], inside[near]])
+
+
+def _ticks(values: Float) -> Float:
+    """Evenly spread values, and those half way between corners: the middle of every arm."""
+    edges = np.unique(values)
+    spread = edges[0] + (np.arange(GRID) + 0.5) / GRID * (edges[-1] - edges[0])
+    return np.unique(np.concatenate([spread, (edges[1:] + edges[:-1]) / 2]))
 
 
 def _home(free: Any) -> Float:

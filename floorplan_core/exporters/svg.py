@@ -1,9 +1,9 @@
 """plan.svg: the plan as a drawing to print and to frame.
 
-SVG 1.1 in millimetres of paper at a usual scale, page axes along the walls (manhattan frame). Layers, from the
-ground up: ``rooms``, ``predicted``, ``walls``, ``doors``, ``dimensions``, ``annotation``. Seen floor is plain,
-predicted floor hatched; walls of which no face was seen are hatched instead of solid. No outside assets; the
-same plan always gives the same bytes.
+SVG 1.1 in millimetres of paper at a usual scale, page axes along the walls (manhattan frame). Layers, from
+the ground up: ``rooms``, ``predicted``, ``walls``, ``doors``, ``dimensions``, ``annotation``. Seen floor is
+plain, predicted floor hatched; walls of which no face was seen are hatched instead of solid. No outside
+assets; the same plan always gives the same bytes.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from floorplan_core.exporters.sheet import Sheet, lay_out
 from floorplan_core.exporters.svg_blocks import draw_blocks
 from floorplan_core.exporters.svg_canvas import FONT, SvgCanvas, number
 from floorplan_core.exporters.svg_dimensions import draw_dimensions
-from floorplan_core.exporters.svg_labels import draw_labels
+from floorplan_core.exporters.svg_labels import draw_labels, label_ground, place_labels
 from floorplan_core.exporters.walls import Opening, Poche, poche, predicted_floor
 from floorplan_core.model import FloorPlan, Region
 
@@ -53,12 +53,13 @@ def svg_text(plan: FloorPlan) -> str:
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
     _draw_rooms(canvas, sheet, plan)
-    _draw_predicted(canvas, sheet, plan)
+    labels = place_labels(sheet, plan, _swept(sheet, walls, swings))
+    _draw_predicted(canvas, sheet, plan, label_ground(labels))
     _draw_walls(canvas, sheet, walls)
     _draw_doors(canvas, sheet, walls, swings)
     draw_dimensions(canvas, sheet, plan.regions)
     with canvas.group(id="annotation", fill=palette.INK):
-        draw_labels(canvas, sheet, plan, _swept(sheet, walls, swings))
+        draw_labels(canvas, labels)
         draw_blocks(canvas, sheet, plan)
     return "\n".join([_head(sheet, plan), _definitions(plan), *canvas.lines, "</svg>", ""])
 
@@ -93,7 +94,8 @@ def _hatch(ident: str, step: float, width: float, colour: str, turn: int, ground
     s = number(step)
     return (
         f'  <pattern id="{ident}" width="{s}" height="{s}" patternUnits="userSpaceOnUse" '
-        f'patternTransform="rotate({turn})"><rect width="{s}" height="{s}" fill="{ground}" fill-opacity="0.55"/>'
+        f'patternTransform="rotate({turn})">'
+        f'<rect width="{s}" height="{s}" fill="{ground}" fill-opacity="0.55"/>'
         f'<line x1="0" y1="0" x2="0" y2="{s}" stroke="{colour}" stroke-width="{number(2 * width)}" '
         'stroke-opacity="0.6"/></pattern>'
     )
@@ -112,13 +114,14 @@ def region_title(region: Region) -> str:
     return f"{region.label.capitalize()} {region.name}: {region.area:.2f} m², {seen:.0f} % seen ({region.id})"
 
 
-def _draw_predicted(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan) -> None:
+def _draw_predicted(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, text: Any) -> None:
+    """Hatches, left out under ``text`` (page geometry) so that it can be read."""
     floor = predicted_floor(plan)
     with canvas.group(id="predicted"):
         for region in plan.regions:
             part = floor.intersection(region.polygon)
             fill = f"url(#predicted-{palette.tone(region.label).accent[1:]})"
-            canvas.area(sheet.geometry(_polygons(part)), fill=fill)
+            canvas.area(_polygons(sheet.geometry(part).difference(text)), fill=fill)
 
 
 def _polygons(geometry: Any) -> Any:

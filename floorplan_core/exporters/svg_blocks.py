@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from floorplan_core.exporters import palette
-from floorplan_core.exporters.sheet import BLOCKS, COLUMN, Sheet
+from floorplan_core.exporters.sheet import BLOCKS, COLUMN, MARGIN, Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
 from floorplan_core.model import FloorPlan
 
-TITLE, BODY, SMALL = 5.0, 2.2, 1.9  # mm
+TITLE, SCALE, BODY, SMALL = 4.6, 3.4, 2.2, 1.9  # mm
 ROW = 3.9  # mm from line to line
 RULE = 0.25  # mm
 SWATCH = (7.0, 3.2)  # mm
@@ -21,6 +21,8 @@ NORTH = 6.5  # mm, radius of the arrow's circle
 def draw_blocks(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan) -> None:
     """The three information blocks, under the plan or beside it."""
     title, legend, scale = sheet.blocks
+    if not sheet.beside:
+        canvas.line(title, (sheet.width - MARGIN, title[1]), stroke=palette.INK, stroke_width=RULE)
     _draw_title(canvas, sheet, plan, *title)
     _draw_legend(canvas, sheet, plan, *legend)
     with canvas.group(id="scale"):
@@ -33,17 +35,20 @@ def _width(sheet: Sheet, block: int) -> float:
 
 
 def _draw_rule(canvas: SvgCanvas, sheet: Sheet, block: int, x: float, y: float) -> None:
-    canvas.line((x, y), (x + _width(sheet, block), y), stroke=palette.INK, stroke_width=RULE)
+    """Beside the plan each block has its own rule; below it, one rule joins them."""
+    if sheet.beside:
+        canvas.line((x, y), (x + _width(sheet, block), y), stroke=palette.INK, stroke_width=RULE)
 
 
 def _draw_title(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
     with canvas.group(id="title-block"):
         _draw_rule(canvas, sheet, 0, x, y)
         size = min(TITLE, TITLE * _width(sheet, 0) / text_width(plan.source, TITLE))
-        canvas.text(plan.source, x, y + 7.2, size, font_weight="600")
+        canvas.text("Floor plan", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
+        canvas.text(plan.source, x, y + 11.2, size, font_weight="600")
         for i, text in enumerate(title_lines(sheet, plan)):
             fitting = min(BODY, BODY * _width(sheet, 0) / text_width(text, BODY))
-            canvas.text(text, x, y + 13 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
+            canvas.text(text, x, y + 16.4 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
 
 
 def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
@@ -52,9 +57,10 @@ def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
     observed = 100.0 * free / total if total else 0.0
     area = sum(r.area for r in plan.regions)
     storey = f" · storey {plan.storey}" if plan.storey else ""
+    counts = f"{_count(len(plan.regions), 'region')} · {_count(len(plan.doors), 'door')}{storey}"
     return [
         f"{area:.2f} m² net internal area to wall faces; {observed:.0f} % observed",
-        f"{_count(len(plan.regions), 'region')} · {_count(len(plan.doors), 'door')}{storey} · lengths in metres",
+        f"{counts} · lengths in metres",
         f"Scale 1:{sheet.scale} when printed on {sheet.paper} at full size",
         f"Drawn along the walls: {math.degrees(plan.frame.yaw):.2f}° from the survey's axes "
         f"(support {100 * plan.frame.support:.0f} %)",
@@ -85,7 +91,7 @@ def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, object]]]:
 def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
     with canvas.group(id="legend"):
         _draw_rule(canvas, sheet, 1, x, y)
-        canvas.text("Legend", x, y + 6.2, BODY, font_weight="600")
+        canvas.text("Legend", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         entries = legend_entries(plan)
         half = _width(sheet, 1) / 2
         for i, (text, look) in enumerate(entries):
@@ -117,8 +123,9 @@ def _draw_scale_bar(canvas: SvgCanvas, sheet: Sheet, x: float, y: float) -> None
     length = max((m for m in BAR_LENGTHS if m * sheet.mm <= room), default=BAR_LENGTHS[0])
     fields = 4 if length % 5 else 5
     field = length * sheet.mm / fields
-    top = y + 20.0
-    canvas.text(f"1:{sheet.scale}", x, y + 7.2, 3.2, font_weight="600")
+    top = y + 21.6
+    canvas.text("Scale and north", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
+    canvas.text(f"1:{sheet.scale}", x, y + 11.2, SCALE, font_weight="600")
     for i in range(fields):
         fill = palette.INK if i % 2 == 0 else palette.PAPER
         canvas.box(x + i * field, top, field, 1.4, fill=fill, stroke=palette.INK, stroke_width=0.15)
@@ -132,7 +139,7 @@ def _draw_north(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: f
     """The direction of the world's +y axis."""
     right, up = (plan.frame.rotation[:2, :2] @ (0.0, 1.0)).tolist()
     turn = math.degrees(math.atan2(right, up))
-    cx, cy = x + _width(sheet, 2) - NORTH - 2.0, y + 15.5
+    cx, cy = x + _width(sheet, 2) - NORTH - 2.0, y + 16.0
     r = NORTH
     with canvas.group(id="north", transform=f"translate({cx:.3f} {cy:.3f})"):
         canvas.add("circle", cx=0.0, cy=0.0, r=r, fill="none", stroke=palette.INK, stroke_width=0.18)

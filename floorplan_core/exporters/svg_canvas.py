@@ -39,6 +39,8 @@ def _em(c: str) -> float:
 
 def printable(text: str) -> str:
     """``text`` without the control characters that XML cannot hold."""
+    if text.isprintable():
+        return text
     return "".join(
         c if (c >= " " and c not in "\x7f\ufffe\uffff") and not _surrogate(c) else " " for c in text
     )
@@ -54,8 +56,8 @@ def attributes(values: dict[str, Any]) -> str:
     for name, value in values.items():
         if value is None:
             continue
-        shown = number(value) if isinstance(value, (int, float)) else printable(str(value))
-        parts.append(f" {name.rstrip('_').replace('_', '-')}={quoteattr(shown)}")
+        shown = f'"{number(value)}"' if isinstance(value, int | float) else quoteattr(printable(str(value)))
+        parts.append(f" {name.replace('_', '-')}={shown}")
     return "".join(parts)
 
 

@@ -2,29 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import shapely
 
 from floorplan_core.exporters import palette
-from floorplan_core.exporters.placement import LEADING, Line, Placed, place
+from floorplan_core.exporters.placement import LEADING, Line, Placed, block_size, place
 from floorplan_core.exporters.sheet import Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas
 from floorplan_core.model import FloorPlan, Region
 
 NAME, AREA, NOTE = 2.7, 2.2, 1.75  # mm
 PAD = 0.9  # mm between text and wall
+AIR = 0.5  # mm around text that hatching leaves free
 RECTANGULAR = 0.995  # share of its bounds that a region fills to be called a rectangle
 CAP = 0.72  # height of capitals over font size
-ORDER = ("name", "area", "note")
 
 
-def draw_labels(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, swept: Any) -> None:
+def place_labels(sheet: Sheet, plan: FloorPlan, swept: Any) -> list[Placed]:
     """A label for each region; ``swept`` is ground on the page that text keeps off."""
+    return [_place(region, sheet.geometry(region.polygon), swept) for region in plan.regions]
+
+
+def label_ground(labels: Sequence[Placed]) -> Any:
+    """The ground that the labels cover on the page, with a little air."""
+    boxes = []
+    for label in labels:
+        width, height = block_size(label.lines)[:: -1 if label.turned else 1]
+        w, h = width / 2 + AIR, height / 2 + AIR
+        boxes.append(shapely.box(label.x - w, label.y - h, label.x + w, label.y + h))
+    return shapely.union_all(boxes)
+
+
+def draw_labels(canvas: SvgCanvas, labels: Sequence[Placed]) -> None:
+    """Write the labels."""
     with canvas.group(id="labels", text_anchor="middle"):
-        for region in plan.regions:
-            floor = sheet.geometry(region.polygon)
-            _draw(canvas, _place(region, floor, swept), palette.tone(region.label).accent)
+        for label in labels:
+            _draw(canvas, label)
 
 
 def label_lines(region: Region) -> tuple[Line, ...]:
@@ -45,7 +60,7 @@ def display_name(region: Region) -> str:
 
 def _place(region: Region, floor: Any, swept: Any) -> Placed:
     free = _largest(floor.difference(swept)) if not swept.is_empty else floor
-    placed = place(label_lines(region), free, PAD)
+    placed = place(label_lines(region), free, PAD, floor)
     if not placed.fits and region.name.isdigit():
         placed = place((Line(region.name, NAME, "name"),), floor, PAD / 2)
     return placed
@@ -55,7 +70,7 @@ def _largest(geometry: Any) -> Any:
     return max(shapely.get_parts(geometry), key=lambda part: part.area)
 
 
-def _draw(canvas: SvgCanvas, placed: Placed, accent: str) -> None:
+def _draw(canvas: SvgCanvas, placed: Placed) -> None:
     """Lines under each other, centred on the spot as a block."""
     styles: dict[str, dict[str, Any]] = {
         "name": {"font_weight": "600", "fill": palette.INK},

@@ -85,12 +85,16 @@ def _box(axis: int, low: float, high: float, start: float, end: float) -> Any:
 
 def _guessed(solid: Any, regions: Sequence[Region], thickness: float, thickest: float) -> Any:
     """Wall behind guessed sides, unless its other face was seen."""
-    strips: dict[bool, list[Any]] = {True: [], False: []}
-    for region in regions:
-        for side in region.sides:
-            strips[side.speculated] += _strips(region, side, thickness, thickest)
-    guessed = shapely.union_all(strips[True]).intersection(solid)
-    return shapely.buffer(guessed.difference(shapely.union_all(strips[False])), 0)
+    sides = [(region, side) for region in regions for side in region.sides]
+    guessed = shapely.union_all(
+        [p for r, s in sides if s.speculated for p in _strips(r, s, thickness, thickest)]
+    )
+    guessed = guessed.intersection(solid)
+    if guessed.is_empty:
+        return guessed
+    shapely.prepare(guessed)
+    seen = [p for r, s in sides if not s.speculated for p in _strips(r, s, thickness, thickest)]
+    return guessed.difference(shapely.union_all([p for p in seen if guessed.intersects(p)])).buffer(0)
 
 
 def _strips(region: Region, side: RegionSide, thickness: float, thickest: float) -> list[Any]:

@@ -21,18 +21,40 @@ Bool = NDArray[np.bool_]
 
 def polygon_mask(polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]) -> Bool:
     """(ny, nx) True where the centre of a cell lies inside ``polygon`` (shapely, metres), holes left out."""
-    ny, nx = shape
-    crossings = np.zeros((ny, nx + 1), dtype=bool)
-    for x0, y0, x1, y1 in _edges(polygon):
-        low, high = min(y0, y1), max(y0, y1)
-        rows = np.arange(*(int(np.clip(np.ceil((v - origin[1]) / cell - 0.5), 0, ny)) for v in (low, high)))
-        if len(rows) == 0:
-            continue
-        y = origin[1] + cell * (rows + 0.5)
-        x = x0 + (y - y0) * ((x1 - x0) / (y1 - y0))
-        columns = np.clip(np.ceil((x - origin[0]) / cell - 0.5), 0, nx).astype(np.int64)
-        crossings[rows, columns] ^= True  # a row crosses an edge once, so no index repeats
-    return np.logical_xor.accumulate(crossings[:, :nx], axis=1)
+    mask = np.zeros(shape, dtype=bool)
+    if polygon.is_empty:
+        return mask
+    x0, y0, x1, y1 = polygon.bounds
+    i0, i1 = (_index(v, origin[0], cell, shape[1]) for v in (x0, x1))
+    j0, j1 = (_index(v, origin[1], cell, shape[0]) for v in (y0, y1))
+    crossings = np.zeros((j1 - j0, i1 - i0 + 1), dtype=bool)
+    for edge in _edges(polygon):
+        _toggle(crossings, edge, (i0, j0), origin, cell)
+    mask[j0:j1, i0:i1] = np.logical_xor.accumulate(crossings[:, :-1], axis=1)
+    return mask
+
+
+def _index(value: float, origin: float, cell: float, count: int) -> int:
+    """The first cell whose centre is not below ``value``, within the grid."""
+    return int(min(max(np.ceil((value - origin) / cell - 0.5), 0), count))
+
+
+def _toggle(
+    crossings: Bool, edge: tuple[float, ...], corner: tuple[int, int], origin: Float, cell: float
+) -> None:
+    """Mark, in each row that the edge crosses, the first cell to its right: even-odd fill, row by row.
+
+    Cells are counted on the whole grid, so that polygons that share an edge round it alike.
+    """
+    x0, y0, x1, y1 = edge
+    (i0, j0), (ny, nx) = corner, crossings.shape
+    rows = np.arange(*(_index(v, origin[1], cell, j0 + ny) for v in sorted((y0, y1))))
+    rows = rows[rows >= j0]
+    if len(rows) == 0:
+        return
+    x = x0 + (origin[1] + cell * (rows + 0.5) - y0) * ((x1 - x0) / (y1 - y0))
+    columns = np.ceil((x - origin[0]) / cell - 0.5).astype(np.int64) - i0
+    crossings[rows - j0, np.clip(columns, 0, nx - 1)] ^= True  # a row crosses an edge once: no index repeats
 
 
 def _edges(polygon: Any) -> list[tuple[float, float, float, float]]:
