@@ -1,0 +1,1 @@
+"""Accuracy over simulated and real surveys: ``python -m benchmarks.accuracy [--quick] [--only NAME]``."""

@@ -1,0 +1,79 @@
+"""The last result: ``benchmarks/results/accuracy.json``, ``docs/accuracy.md``, pictures of the worst."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.accuracy import tables
+from benchmarks.accuracy.record import Record, badness
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = ROOT / "benchmarks" / "results" / "accuracy.json"
+DOCUMENT = ROOT / "docs" / "accuracy.md"
+PICTURES = ROOT / "docs" / "accuracy"
+WORST = 5
+
+INTRODUCTION = """# Accuracy
+
+Written by `make accuracy` (`python -m benchmarks.accuracy`); do not edit. Simulated surveys vary style,
+sensor, exploration, furniture, noise and drift together; settings are tuned on the first half of the seeds
+only, so the *held out* column counts. A number that misses its target carries a cross. Dimensions, F1 and IoU
+are over rooms that the sensor entered; a dimension is measured where the plan has both of its walls (column
+*share*). Rooms seen by less than 15 % are neither expected nor forbidden.
+"""
+
+
+def load() -> list[Record]:
+    """The records of the last full run; none where there was none."""
+    if not RESULTS.is_file():
+        return []
+    return list(json.loads(RESULTS.read_text(encoding="utf-8"))["surveys"])
+
+
+def save(records: Sequence[Record]) -> None:
+    """Keep the records, rounded so that a change of the last digit of a float is no change of the file."""
+    rounded = [{k: round(v, 6) if isinstance(v, float) else v for k, v in r.items()} for r in records]
+    RESULTS.parent.mkdir(parents=True, exist_ok=True)
+    RESULTS.write_text(json.dumps({"surveys": rounded}, indent=1) + "\n", encoding="utf-8")
+
+
+def worst_records(records: Sequence[Record], count: int = WORST) -> list[Record]:
+    """The surveys farthest from perfect, worst first (ties: in order)."""
+    return sorted(records, key=lambda r: -badness(r))[:count]
+
+
+def picture_path(rank: int) -> Path:
+    """The picture of the ``rank``-th worst survey (from 1)."""
+    return PICTURES / f"worst-{rank}.png"
+
+
+def write_document(records: Sequence[Record], last: Sequence[Record]) -> None:
+    """Totals, change against the last run, single surveys and pictures as Markdown."""
+    simulated = [r for r in records if r["half"] != "shared"]
+    shared = [r for r in records if r["half"] == "shared"]
+    parts = [
+        INTRODUCTION,
+        "## Simulated surveys, both halves\n",
+        tables.markdown(tables.totals(records, last)),
+    ]
+    parts += ["\n## Shared surveys\n", tables.markdown(tables.surveys(shared))] if shared else []
+    parts += ["\n## Prediction, by how much was seen\n", tables.markdown(tables.exploration(simulated))]
+    parts += ["\n## What hurts\n", tables.markdown(tables.factors(simulated))]
+    parts += ["\n## Single surveys\n", tables.markdown(tables.surveys(simulated))]
+    parts += [_failures(records), "\n## The five worst\n", *_pictures(records)]
+    DOCUMENT.parent.mkdir(parents=True, exist_ok=True)
+    DOCUMENT.write_text("\n".join(p for p in parts if p) + "\n", encoding="utf-8")
+
+
+def _failures(records: Sequence[Record]) -> str:
+    failed = [f"- {r['name']}: {r['error']}" for r in records if r["error"]]
+    return "\n".join(["\n## No plan\n", *failed]) if failed else ""
+
+
+def _pictures(records: Sequence[Record]) -> list[str]:
+    return [
+        f"{rank}. {r['name']} ({r['half']})\n\n   ![{r['name']}]({PICTURES.name}/{picture_path(rank).name})\n"
+        for rank, r in enumerate(worst_records(records), start=1)
+    ]

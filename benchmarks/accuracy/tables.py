@@ -1,0 +1,129 @@
+"""Tables of the benchmark: for the terminal (rich) and for ``docs/accuracy.md``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from benchmarks.accuracy.cases import HALVES
+from benchmarks.accuracy.record import METRICS, Metric, Record, mean, worst
+
+# Columns of the table of single surveys: key, title, digits.
+COLUMNS = (
+    ("yaw_error_deg", "yaw °", 2),
+    ("dimension_m", "dim m", 3),
+    ("dimension_max_m", "max m", 2),
+    ("dimension_share", "share", 2),
+    ("f1_entered", "F1", 2),
+    ("iou_entered", "IoU", 3),
+    ("recall_glimpsed", "glimpsed", 2),
+    ("labels", "labels", 2),
+    ("door_precision", "door P", 2),
+    ("door_recall", "door R", 2),
+    ("door_width_m", "width m", 3),
+    ("free_precision", "free P", 3),
+    ("free_recall", "free R", 3),
+    ("outside_percent", "out %", 1),
+    ("seconds", "s", 1),
+)
+Table = tuple[list[str], list[list[str]]]  # header, rows
+
+
+def number(value: float | None, digits: int) -> str:
+    """Fixed digits, a dash where there is nothing."""
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def change(new: float | None, old: float | None, metric: Metric) -> str:
+    """Signed difference with a word where it matters at the printed precision."""
+    if new is None or old is None:
+        return ""
+    difference = round(new - old, metric.digits)
+    if difference == 0:
+        return "="
+    word = "better" if difference * metric.good > 0 else "worse"
+    return f"{difference:+.{metric.digits}f} {word}"
+
+
+def totals(records: Sequence[Record], last: Sequence[Record]) -> Table:
+    """One row a metric: target, mean of each half, worst held-out survey, change of the held-out mean."""
+    header = ["metric", "target", *HALVES, "worst held out", "survey", "held out against last"]
+    return header, [_total(metric, records, last) for metric in METRICS]
+
+
+def _total(metric: Metric, records: Sequence[Record], last: Sequence[Record]) -> list[str]:
+    halves = {half: [r for r in records if r["half"] == half] for half in HALVES}
+    means = [mean(halves[half], metric.key) for half in HALVES]
+    low = worst(halves[HALVES[1]], metric)
+    names = {r["name"] for r in halves[HALVES[1]]}
+    before = mean([r for r in last if r["name"] in names], metric.key)
+    return [
+        metric.title,
+        target(metric),
+        *(marked(value, metric) for value in means),
+        number(low and low[metric.key], metric.digits),
+        low["name"] if low else "",
+        change(means[1], before, metric),
+    ]
+
+
+def target(metric: Metric) -> str:
+    """Like ``≤ 0.01, worst ≤ 0.03``."""
+    sign = "≥" if metric.good > 0 else "≤"
+    if metric.target is None:
+        return ""
+    limit = f"{sign} {metric.target:g}"
+    return limit if metric.worst is None else f"{limit}, worst {sign} {metric.worst:g}"
+
+
+def marked(value: float | None, metric: Metric) -> str:
+    """The number, with a cross where it misses its target."""
+    text = number(value, metric.digits)
+    if value is None or metric.target is None:
+        return text
+    return text if metric.good * (value - metric.target) >= 0 else f"{text} ✗"
+
+
+def surveys(records: Sequence[Record]) -> Table:
+    """One row a survey."""
+    header = ["survey", "half", *(title for _, title, _ in COLUMNS)]
+    rows = [[r["name"], r["half"], *(number(r.get(k), d) for k, _, d in COLUMNS)] for r in records]
+    return header, rows
+
+
+def exploration(records: Sequence[Record]) -> Table:
+    """How good prediction is, by how much was explored (both halves)."""
+    keys = (
+        "iou_entered",
+        "recall_glimpsed",
+        "iou_glimpsed",
+        "predicted_m2",
+        "predicted_right",
+        "outside_percent",
+    )
+    titles = ("IoU entered", "recall glimpsed", "IoU glimpsed", "predicted m²", "right", "outside %")
+    levels = sorted(
+        {r["factors"].get("explored", "") for r in records} - {""}, key=lambda s: -float(s.split()[0])
+    )
+    rows = []
+    for level in levels:
+        group = [r for r in records if r["factors"].get("explored") == level]
+        rows.append([level, str(len(group)), *(number(mean(group, key), 3) for key in keys)])
+    return ["explored", "surveys", *titles], rows
+
+
+def factors(records: Sequence[Record]) -> Table:
+    """Mean results by the level of each factor: what hurts most."""
+    keys = ("dimension_m", "f1_entered", "iou_entered", "door_precision", "door_recall")
+    rows = []
+    for factor in ("sensor", "furniture", "style", "noise", "drift"):
+        for level in sorted({r["factors"].get(factor, "") for r in records} - {""}):
+            group = [r for r in records if r["factors"].get(factor) == level]
+            rows.append([f"{factor}: {level}", str(len(group)), *(number(mean(group, k), 3) for k in keys)])
+    return ["factor", "surveys", "dimension m", "F1", "IoU", "door P", "door R"], rows
+
+
+def markdown(table: Table) -> str:
+    """A table of GitHub's Markdown."""
+    header, rows = table
+    lines = ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
