@@ -42,7 +42,7 @@ def save(value: object, path: Path) -> None:
 def load(path: Path, expected: type[T]) -> T:
     """Read what :func:`save` wrote; :class:`InputError` unless it is a whole, well-formed ``expected``."""
     try:
-        value = _read(path)
+        value = loads(path.read_bytes())
     except OSError as error:
         raise InputError(f"Cannot read {path.name}: {(error.strerror or str(error)).lower()}.") from error
     except (
@@ -85,8 +85,9 @@ def _npy(array: NDArray[Any]) -> bytes:
     return buffer.getvalue()
 
 
-def _read(path: Path) -> object:
-    with zipfile.ZipFile(path) as archive:
+def loads(data: bytes) -> object:
+    """The value in the bytes of a file; raises :class:`Malformed`, ValueError and zipfile's and zlib's errors."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
         tree = json.loads(_member(archive, TREE, MAX_TREE_BYTES))
         if not isinstance(tree, dict) or tree.get("format") != FORMAT:
             raise Malformed("it is another kind of zip file")

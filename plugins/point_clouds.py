@@ -1,10 +1,10 @@
-"""Readers that ship: PLY, PCD, text, NPZ and folders of scans."""
+"""Readers that ship: point clouds and folders of scans whose formats need nothing but numpy."""
 
 from floorplan_core.api import Reader, hookimpl
 
 
 @hookimpl
 def floorcast_readers() -> list[Reader]:
-    from floorplan_core.readers import NpzReader, PcdReader, PlyReader, ScanFolderReader, TextReader
+    from floorplan_core.readers import builtin_readers
 
-    return [PlyReader(), PcdReader(), TextReader(), NpzReader(), ScanFolderReader()]
+    return list(builtin_readers())

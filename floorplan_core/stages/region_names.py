@@ -1,4 +1,4 @@
-"""Regions keep their names from one plan of a run to the next, as far as they persist (paper, online figures).
+"""Regions keep their names from one plan of a run to the next, where they persist (paper, online figures).
 
 A region is the one of the plan before with which it shares the most area; numbers are never used twice.
 Cost: one overlap for each pair of regions whose boxes meet.
