@@ -16,7 +16,13 @@ from floorplan_core.readers.axes import guess_axes
 from floorplan_core.readers.local import LIMIT, choose_shift, keep_finite, local_points, local_trajectory
 from floorplan_core.readers.source import PointSource, RawChunk
 from floorplan_core.readers.trajectory import read_trajectory
-from floorplan_core.readers.trajectory_files import check_plausible, check_rows, find_trajectory
+from floorplan_core.readers.trajectory_files import (
+    belongs,
+    check_plausible,
+    check_rows,
+    find_trajectory,
+    fit_unit,
+)
 from floorplan_core.units import METRES_PER_UNIT, up_rotation
 
 Float = NDArray[np.float64]
@@ -31,7 +37,8 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
     trajectory = _trajectory(source, options, observer, notes)
     if trajectory is not None and source.has_scan_id and source.scan_ids is not None:
         check_rows(name, source.scan_ids, len(trajectory))
-    guess = guess_axes(points, trajectory, options.input.unit, options.input.up)
+    near = trajectory if trajectory is not None and belongs(points, trajectory) else None
+    guess = guess_axes(points, near, options.input.unit, options.input.up)
     notes.extend(guess.sentences)
     scale, rotation = METRES_PER_UNIT[guess.unit], up_rotation(guess.up)
     frame = LocalFrame(scale, guess.unit, guess.up, rotation)
@@ -39,7 +46,10 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
     if trajectory is not None:
-        trajectory = local_trajectory(trajectory, frame)
+        in_metres = fit_unit(points, trajectory, frame.scale)
+        if in_metres is not None:
+            notes.append("The trajectory is in metres, unlike the points.")
+        trajectory = local_trajectory(in_metres or trajectory, frame)
         ids = _usable(scan_id, len(trajectory), name)
         check_plausible(name, frame.to_local(points), ids, trajectory, options.input.max_range)
     rows = None if trajectory is None or not source.has_scan_id else len(trajectory)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.model import Trajectory
 from floorplan_core.readers.layers import Layers, find_layers
-from floorplan_core.units import METRES_PER_UNIT, UNIT_NAMES, up_rotation
+from floorplan_core.units import METRES_PER_UNIT, UNIT_NAMES
 
 Float = NDArray[np.float64]
 
@@ -25,9 +25,13 @@ LEVEL_WEIGHT = 2.0  # of ln(path's spread along the others / along the axis)
 UPRIGHT_WEIGHT = 3.0  # of the sensor's own vertical, where only one of its axes stays constant
 LEVEL_FLOOR = 0.02  # a path is never more level than this share of its length
 MIN_PATH = 0.03  # of the cloud's extent: a shorter path says nothing about level
-UPSIDE_DOWN_RATIO = (
-    2.5  # this many times more clutter under the "ceiling" than over the "floor" turns it over
-)
+UPRIGHT_DECIDES = 0.7  # cosine from which the sensor's vertical says which end is up
+CLUTTER_FROM, CLUTTER_TO = 0.08, 0.35  # shares of the height: above floor and skirting, below table tops
+SENSOR_SHARE = 0.55  # of the height: carried by hand; robots are lower
+SENSOR_SHARE_WEIGHT = 2.0
+# Evidence (logarithm of a ratio) from which an axis points down. Camera frames have y down, so little is
+# needed there; files with z or x down are rare.
+UPSIDE_DOWN = {"x": 0.5, "y": 0.25, "z": 0.5}
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ HEIGHT = Typical(3.5, 0.7, 6.0)  # of everything, where no ceiling shows
 EXTENT = Typical(20.0, 1.3, 8.0)  # longer side of the plan
 SENSOR = Typical(1.1, 0.5, 2.5)  # of the sensor above the floor
 SPEED = Typical(0.5, 0.9, 1.5)  # metres a second of whoever carries it
-PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # how often files come in each unit
+PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # logarithms: how often files come in each unit
 
 
 @dataclass(frozen=True)
@@ -66,7 +70,7 @@ def guess_axes(points: Float, trajectory: Trajectory | None, unit: str, up: str)
     """Decide what is "auto"; ``points`` (N, 3) finite, N > 0, ``trajectory`` in the same file coordinates."""
     layers = [find_layers(points[:, axis]) for axis in range(3)]
     up_guess = guess_up(points, layers, trajectory) if up == "auto" else up
-    unit_guess = guess_unit(points, layers, trajectory, up_guess) if unit == "auto" else unit
+    unit_guess = guess_unit(layers, trajectory, up_guess) if unit == "auto" else unit
     sentences = (_up_sentence(up, up_guess), _unit_sentence(unit, unit_guess, layers, up_guess))
     return AxisGuess(up_guess, unit_guess, sentences)
 
@@ -83,38 +87,29 @@ def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None)
     upright = _upright(trajectory)
     scores += UPRIGHT_WEIGHT * np.abs(upright)
     axis: int = max((2, 1, 0), key=lambda a: float(scores[a]))
-    down = _is_upside_down(points[:, axis], layers[axis], float(upright[axis]))
+    if abs(upright[axis]) > UPRIGHT_DECIDES:
+        down = bool(upright[axis] < 0)
+    else:
+        heights = None if trajectory is None else trajectory.origins[:, axis]
+        down = _is_upside_down(points[:, axis], layers[axis], heights, UPSIDE_DOWN["xyz"[axis]])
     return ("-" if down else "") + "xyz"[axis]
 
 
-def guess_unit(points: Float, layers: list[Layers], trajectory: Trajectory | None, up: str) -> str:
-    """ "m", "cm", "mm" or "ft": what makes the sizes those of a building."""
-    axis, sign = "xyz".index(up[-1]), -1.0 if up[0] == "-" else 1.0
+def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str) -> str:
+    """ "m", "mm", "cm" or "ft" (ties go in this order): what makes the sizes those of a building."""
+    axis = "xyz".index(up[-1])
     plan = max(layers[a].high - layers[a].low for a in range(3) if a != axis)
-    storey = storey_height(layers[axis])
-    tall = layers[axis].high - layers[axis].low
-    floor = layers[axis].low if sign > 0 else -layers[axis].high
-    sensor = 0.0
-    speed = 0.0
-    if trajectory is not None:
-        heights = sign * trajectory.origins[:, axis]
-        positions = sign * layers[axis].positions
-        below = positions[positions < np.median(heights)]
-        sensor = float(np.median(heights)) - float(below.max() if len(below) else floor)
-        speed = _speed(trajectory)
+    storey, tall = storey_height(layers[axis]), layers[axis].high - layers[axis].low
+    sensor = 0.0 if trajectory is None else _sensor_height(layers[axis], trajectory.origins[:, axis], up)
+    speed = 0.0 if trajectory is None else _speed(trajectory)
 
     def score(unit: str) -> float:
         size = METRES_PER_UNIT[unit]
         vertical = STOREY.score(storey * size) if storey else HEIGHT.score(tall * size)
-        return (
-            PRIOR[unit]
-            + vertical
-            + EXTENT.score(plan * size)
-            + SENSOR.score(sensor * size)
-            + SPEED.score(speed * size)
-        )
+        rest = EXTENT.score(plan * size) + SENSOR.score(sensor * size) + SPEED.score(speed * size)
+        return PRIOR[unit] + vertical + rest
 
-    return max(("m", "mm", "cm", "ft"), key=score)
+    return max(PRIOR, key=score)
 
 
 def storey_height(layers: Layers) -> float:
@@ -156,23 +151,31 @@ def _upright(trajectory: Trajectory | None) -> Float:
     return np.zeros(3)
 
 
-def _is_upside_down(values: Float, layers: Layers, upright: float) -> bool:
-    """True where "up" points down: the sensor hangs so, or the clutter stands on the other layer."""
-    if abs(upright) > 0.7:
-        return upright < 0
-    if len(layers.positions) == 0:
+def _is_upside_down(values: Float, layers: Layers, heights: Float | None, threshold: float) -> bool:
+    """True where the clutter stands, or the sensor moves, clearly nearer to what would be the ceiling.
+
+    ``values`` (N,) and ``heights`` (M,) of points and sensors along the axis, file units.
+    """
+    if len(layers.positions) < 2:
         return False
-    if len(layers.positions) == 1:  # a floor alone has everything above it, a ceiling alone nothing
-        position = layers.positions[0]
-        return bool(position > 0.5 * (layers.low + layers.high) and layers.outside == 0.0) and (
-            layers.shares[0] > 0.3
-        )
     bottom, top = layers.positions[0], layers.positions[-1]
-    height = top - bottom
-    margin = 0.08 * height
-    low = np.count_nonzero((values > bottom + margin) & (values < bottom + 0.35 * height))
-    high = np.count_nonzero((values < top - margin) & (values > top - 0.35 * height))
-    return bool(high > UPSIDE_DOWN_RATIO * max(low, 1))
+    share = (values - bottom) / (top - bottom)
+    low = np.count_nonzero((share > CLUTTER_FROM) & (share < CLUTTER_TO))
+    high = np.count_nonzero((share < 1 - CLUTTER_FROM) & (share > 1 - CLUTTER_TO))
+    evidence = math.log((high + 1) / (low + 1))
+    if heights is not None and len(heights):
+        sensor = float(np.clip((np.median(heights) - bottom) / (top - bottom), 0.0, 1.0))
+        evidence += SENSOR_SHARE_WEIGHT * (sensor - SENSOR_SHARE)
+    return evidence > threshold
+
+
+def _sensor_height(layers: Layers, along: Float, up: str) -> float:
+    """Median height of the sensor above the next layer below it (else the lowest point), file units."""
+    sign = -1.0 if up[0] == "-" else 1.0
+    height = float(np.median(sign * along))
+    positions = sign * layers.positions
+    below = positions[positions < height]
+    return height - float(below.max() if len(below) else min(sign * layers.low, sign * layers.high))
 
 
 def _speed(trajectory: Trajectory) -> float:
@@ -195,14 +198,12 @@ def _unit_sentence(asked: str, unit: str, layers: list[Layers], up: str) -> str:
     if asked != "auto":
         return f"Coordinates are in {UNIT_NAMES[unit]}, as asked."
     axis = layers["xyz".index(up[-1])]
-    storey = storey_height(axis)
+    storey, tall = storey_height(axis), axis.high - axis.low
     size = METRES_PER_UNIT[unit]
-    what = (
-        f"floor to ceiling is {storey * size:.2f} m"
-        if storey
-        else f"the height is {(axis.high - axis.low) * size:.2f} m"
-    )
+    if storey:
+        what = f"floor to ceiling is then {storey * size:.2f} m"
+    elif tall:
+        what = f"the height is then {tall * size:.2f} m"
+    else:
+        what = "the points are flat, so only their extent could tell"
     return f"Coordinates are taken as {UNIT_NAMES[unit]} ({what}); force it with input.unit."
-
-
-__all__ = ["AxisGuess", "guess_axes", "guess_unit", "guess_up", "storey_height", "up_rotation"]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 Float = NDArray[np.float64]
 
 BINS = 120  # over the trimmed extent: 2 to 4 cm of a storey, as thick as a noisy floor
-SIGNIFICANT = 0.3  # a layer holds at least this share of the points of the strongest one
-CONTRAST = 3.0  # and this many times the points of a median bin
+SIGNIFICANT = 0.4  # a layer holds at least this share of the points of the strongest one
+CONTRAST = 2.0  # and this many times the points of a median bin
 MIN_GAP = 0.15  # of the extent: nearer peaks are one layer (a raised slab, a lowered ceiling)
 
 

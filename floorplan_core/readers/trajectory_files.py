@@ -47,6 +47,30 @@ def check_rows(cloud: str, ids: ScanIds, rows: int) -> None:
         )
 
 
+def share_inside(points: Float, origins: Float) -> tuple[float, float]:
+    """Share of the sensor positions in or near the bounds of the points, and the margin that "near" means."""
+    low, high = np.quantile(points, [0.01, 0.99], axis=0)
+    margin = MARGIN * float((high - low).max())
+    inside = np.all((origins >= low - margin) & (origins <= high + margin), axis=1)
+    return float(inside.mean()), margin
+
+
+def belongs(points: Float, trajectory: Trajectory) -> bool:
+    """True where most sensor positions lie in or near the bounds of the points (one frame, any unit)."""
+    return share_inside(points, trajectory.origins)[0] >= MIN_INSIDE
+
+
+def fit_unit(points: Float, trajectory: Trajectory, scale: float) -> Trajectory | None:
+    """The trajectory in the file's unit (of ``scale`` metres) where it was written in metres; else None."""
+    in_file_unit = trajectory.T_world_sensor.copy()
+    in_file_unit[:, :3, 3] /= scale
+    if scale == 1.0 or belongs(points, trajectory):
+        return None
+    if share_inside(points, in_file_unit[:, :3, 3])[0] < MIN_INSIDE:
+        return None
+    return Trajectory(trajectory.stamps, in_file_unit)
+
+
 def check_plausible(
     cloud: str,
     points: Float,
@@ -55,12 +79,10 @@ def check_plausible(
     max_range: float,
 ) -> None:
     """:class:`InputError` where a trajectory cannot have seen the points (all in metres, one frame)."""
-    low, high = np.quantile(points, [0.01, 0.99], axis=0)
-    margin = MARGIN * float((high - low).max()) + 1.0
-    inside = np.all((trajectory.origins > low - margin) & (trajectory.origins < high + margin), axis=1)
-    if inside.mean() < MIN_INSIDE:
+    inside, margin = share_inside(points, trajectory.origins)
+    if inside < MIN_INSIDE:
         raise InputError(
-            f"The trajectory is not of the survey {cloud}: {1 - inside.mean():.0%} of its positions lie "
+            f"The trajectory is not of the survey {cloud}: {1 - inside:.0%} of its positions lie "
             f"more than {margin:.0f} m outside the points; give the right one with --trajectory."
         )
     if scan_id is None or len(scan_id) == 0:
