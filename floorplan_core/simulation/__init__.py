@@ -8,6 +8,7 @@
 from floorplan_core.simulation.architect import make_building
 from floorplan_core.simulation.building import Building, DoorOpening, Furniture, Space, WindowOpening
 from floorplan_core.simulation.files import SurveyPaths
+from floorplan_core.simulation.layout import BuildingLayout, building_layout, layout_only
 from floorplan_core.simulation.spec import (
     FURNITURE,
     SENSORS,
@@ -24,6 +25,7 @@ __all__ = [
     "SENSORS",
     "STYLES",
     "Building",
+    "BuildingLayout",
     "BuildingSpec",
     "DoorOpening",
     "Furniture",
@@ -33,6 +35,8 @@ __all__ = [
     "SurveyPaths",
     "SurveySpec",
     "WindowOpening",
+    "building_layout",
+    "layout_only",
     "make_building",
     "sensor_preset",
     "simulate",

@@ -5,7 +5,6 @@ All lengths in metres, rounded to the millimetre so that shared faces share thei
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -68,11 +67,17 @@ def _rounded(rect: Rect) -> Rect:
     return mm(rect[0]), mm(rect[1]), mm(rect[2]), mm(rect[3])
 
 
+def _slots(spec: BuildingSpec) -> float:
+    """Places along the corridors for the wanted number of rooms: some hold a room within a room."""
+    return spec.rooms / (1 + spec.nested_rooms)
+
+
 def _straight(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rect], list[Strip]]:
     """A double-loaded corridor; its ends look out of windows."""
-    w, south, north = jitter(rng, spec.corridor_width), *(jitter(rng, spec.room_depth) for _ in "ab")
-    length = jitter(rng, max(math.ceil(spec.rooms / 2), 1) * spec.room_width)
-    return [(0, 0, length, w)], [
+    w = jitter(rng, spec.corridor_width)
+    south, north = jitter(rng, spec.room_depth), jitter(rng, spec.room_depth)
+    length = jitter(rng, max(_slots(spec) / 2, 1) * spec.room_width)
+    return [(0.0, 0.0, length, w)], [
         Strip((0, -t - south, length, -t), "n"),
         Strip((0, w + t, length, w + t + north), "s"),
     ]
@@ -82,7 +87,7 @@ def _l(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rec
     """Two wings that meet in a corner."""
     w, v = jitter(rng, spec.corridor_width), jitter(rng, spec.corridor_width)
     south, east, north, west = (jitter(rng, spec.room_depth) for _ in range(4))
-    total = max(spec.rooms / 2, 3.5) * spec.room_width
+    total = max(_slots(spec) / 2, 3.5) * spec.room_width
     x = max(total * rng.uniform(0.5, 0.65), west + v + t + 3)
     y = max(total - x, w + t + north + 4)
     corridors = [(0, 0, x, w), (x - v, 0, x, y)]
@@ -98,7 +103,7 @@ def _t(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rec
     """A bar with a wing in its middle."""
     w, v = jitter(rng, spec.corridor_width), jitter(rng, spec.corridor_width)
     south, left, right, west, east = (jitter(rng, spec.room_depth) for _ in range(5))
-    total = max(spec.rooms / 2, 4.5) * spec.room_width
+    total = max(_slots(spec) / 2, 4.5) * spec.room_width
     x = max(total * rng.uniform(0.6, 0.7), west + east + v + 4 * t + 2)
     m = mm(x * rng.uniform(0.4, 0.6))
     y = w + t + max(left, right) + t + max(total - x, 4.0)
@@ -126,9 +131,9 @@ def _ring(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[
     south, north, west, east = (jitter(rng, spec.room_depth) for _ in range(4))
     core_y = jitter(rng, spec.room_depth * rng.choice([1.0, 1.7]))
     y = core_y + 2 * (w + t)
-    side_rooms = 2 * y / spec.room_width + (2 if core_y >= TWO_ROWS else 1) * 0.8
-    core_x = max((spec.rooms - side_rooms) / 3.4 * spec.room_width, 1.2 * spec.room_width)
-    x = mm(core_x + 2 * (v + t))
+    rows = 2 if core_y >= TWO_ROWS else 1
+    wall = _slots(spec) * spec.room_width - 2 * (west + east + y) + 2 * rows * v  # what x has to hold
+    x = mm(max(wall / (2 + rows), 1.2 * spec.room_width + 2 * (v + t)))
     corridors = [(0, 0, x, w), (0, y - w, x, y), (0, 0, v, y), (x - v, 0, x, y)]
     strips = [
         Strip((-t - west, -t - south, x + t + east, -t), "n"),
@@ -163,14 +168,23 @@ def _grid(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[
 
 def _blocks(spec: BuildingSpec) -> tuple[int, int, float]:
     """Columns and rows of blocks and rooms along a block, for about the wanted number of rooms."""
-    best = (2, 1, 2.0)
-    error = math.inf
-    for columns in range(2, 40):
-        for rows in range(1, columns + 1):
-            along = spec.rooms / (2 * columns * (rows + 1))
-            if abs(math.log(max(along, 0.1) / 4)) < error:  # four rooms along a block look right
-                best, error = (columns, rows, min(max(along, 1.5), 9.0)), abs(math.log(max(along, 0.1) / 4))
-    return best
+    return min(
+        (
+            (columns, rows, min(max(_slots(spec) / (2 * columns * (rows + 1)), 1.5), 9.0))
+            for columns in range(2, 60)
+            for rows in range(1, 60)
+        ),
+        key=lambda blocks: _oddness(spec, *blocks),
+    )
+
+
+def _oddness(spec: BuildingSpec, columns: int, rows: int, along: float) -> float:
+    """How far a grid is from the wanted rooms, from four rooms along a block, and from 3 : 2 in plan."""
+    rooms = 2 * columns * (rows + 1) * along
+    x = columns * (along * spec.room_width + spec.corridor_width)
+    y = rows * (1.9 * spec.room_depth + spec.corridor_width) + 2 * spec.room_depth
+    terms = np.log([rooms / _slots(spec), along / 4, x / y / 1.5])
+    return float(np.abs(terms) @ [3.0, 1.0, 0.7])
 
 
 def _flat(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rect], list[Strip]]:

@@ -87,7 +87,9 @@ BENCH = Piece("bench", (1.0, 1.8), (0.35, 0.42), (0.42, 0.48))
 
 # What a use holds: pieces in order, each with its number per 10 m2 of floor (at least the first).
 INVENTORY: dict[str, tuple[tuple[Piece, float], ...]] = {
-    "office": ((DESK, 1.0), (CABINET, 0.5), (SHELF, 0.5), (DRAWERS, 0.4), (BOARD, 0.3), (PLANT, 0.3), (DIVIDER, 0.15)),
+    "office": (
+        (DESK, 1.0), (CABINET, 0.5), (SHELF, 0.5), (DRAWERS, 0.4), (BOARD, 0.3), (PLANT, 0.3), (DIVIDER, 0.15)
+    ),
     "meeting room": ((TABLE, 0.3), (BOARD, 0.3), (CABINET, 0.25), (PLANT, 0.2), (LOCKER, 0.15), (DESK, 0.3)),
     "store": ((SHELF, 1.5), (LOCKER, 0.8), (DRAWERS, 0.8)),
     "bathroom": ((TOILET, 2.0), (BASIN, 2.0)),
@@ -251,7 +253,7 @@ def _chairs(
     index: int, floor: _Floor, piece: Piece, hull: Float, rng: np.random.Generator
 ) -> list[Furniture]:
     """Chairs around a desk or table, each turned a little, where there is room."""
-    made = []
+    made: list[Furniture] = []
     middle, half = (hull[:2] + hull[2:]) / 2, (hull[2:] - hull[:2]) / 2
     for _ in range(piece.chairs * 2):
         if len(made) >= piece.chairs:
@@ -302,7 +304,7 @@ def make_columns(
 
 
 def _column_places(space: Space, rect: Float, size: float, rng: np.random.Generator) -> list[Float]:
-    """Lower left corners: every 4 to 6 m along the middle of a large room, else one at a wall now and then."""
+    """Lower left corners: every 4 to 6 m along the middle of a large room, else now and then in a corner."""
     extent = rect[2:] - rect[:2]
     long = int(np.argmax(extent))
     if space.kind == "room" and extent.min() > 4.5 and extent.prod() > 32:

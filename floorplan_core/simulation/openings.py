@@ -44,7 +44,7 @@ def contacts(spaces: tuple[Space, ...], thickest: float) -> list[Contact]:
     """All stretches where two different spaces are at most ``thickest`` metres apart."""
     rects = np.vstack([s.rects for s in spaces])
     owner = np.repeat(np.arange(len(spaces)), [len(s.rects) for s in spaces])
-    found = []
+    found: list[Contact] = []
     for axis in (0, 1):
         order = np.argsort(rects[:, axis], kind="stable")
         faces = rects[order, axis]
@@ -126,7 +126,7 @@ def _door(
     """Place a door in ``wall``; None where every try lies in another door."""
     kind, width = _kind_and_width(wall, space, spec, rng)
     for _ in range(20):
-        slack = wall.length - width - 2 * JAMB
+        slack = max(wall.length - width - 2 * JAMB, 0.0)
         near_end = min(slack, rng.uniform(0, 0.4))
         shift = rng.choice([near_end, slack - near_end, rng.uniform(0, slack)])
         a = mm(wall.start + JAMB + shift)
@@ -261,7 +261,7 @@ def make_windows(
 def _facades(
     space: Space, rects: Float, thickness: float
 ) -> Iterator[tuple[int, tuple[float, float], float, float]]:
-    """Exterior stretches of a space: axis, wall faces (inner side first in order of coordinate), start, end."""
+    """Exterior stretches of a space: axis, wall faces by coordinate, start, end."""
     for rect in space.rects:
         for axis in (0, 1):
             for face, out in ((rect[axis], -1), (rect[axis + 2], 1)):

@@ -67,7 +67,7 @@ def _moving(walk: Walk, sensor: SensorSpec) -> tuple[Float, Float, Float]:
     """Stamps, positions and headings at the sensor's rate along the path, with turns at the stops."""
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(walk.path, axis=0).T))])
     pause = sensor.look_around / TURN_RATE
-    looks = walk.stops[walk.stop_space > 0] if pause > 0 else walk.stops[:0]
+    looks = walk.stops[walk.look] if pause > 0 else walk.stops[:0]
     before = np.searchsorted(looks, np.arange(len(arc)), side="left")  # turns finished before each row
     clock = arc / sensor.speed + pause * before
     # a stop appears twice: before its turn and after it
@@ -89,7 +89,7 @@ def _heading(path: Float, arc: Float, s: Float) -> Float:
         for d in (HEADING_SPAN / 2, -HEADING_SPAN / 2)
     )
     step = ahead - behind
-    return np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+    return np.asarray(np.unwrap(np.arctan2(step[:, 1], step[:, 0])))
 
 
 def _stations(walk: Walk, sensor: SensorSpec, rng: np.random.Generator) -> tuple[Float, Float, Float, Float]:
@@ -104,7 +104,7 @@ def _stations(walk: Walk, sensor: SensorSpec, rng: np.random.Generator) -> tuple
         elif space == 0 and all(np.hypot(*(at - walk.path[c])) > STATION_STEP for c in chosen):
             chosen.append(int(row))
     xy = walk.path[chosen]
-    stamps = sensor.interval * np.arange(len(chosen))
+    stamps = sensor.interval * np.arange(len(chosen), dtype=np.float64)
     return stamps, xy, rng.uniform(-np.pi, np.pi, len(chosen)), np.zeros((len(chosen), 2))
 
 
@@ -114,7 +114,7 @@ def _slow_noise(count: int, columns: int, span: int, rng: np.random.Generator) -
     kernel = np.hanning(2 * span + 1)
     raw = rng.standard_normal((count + 2 * span, columns))
     smooth = np.column_stack([np.convolve(raw[:, k], kernel, "valid") for k in range(columns)])
-    return smooth / np.sqrt((kernel**2).sum())
+    return np.asarray(smooth / np.sqrt((kernel**2).sum()), dtype=np.float64)
 
 
 def _drift(T: Float, spec: SurveySpec, rng: np.random.Generator) -> Float:

@@ -20,7 +20,7 @@ SMALL, LARGE = 8.0, 28.0  # m2: below a store or washroom, above a meeting room
 
 @dataclass(frozen=True)
 class Slot:
-    """One place in a strip; local axes: u along the corridor, v away from it, v = 0 at the corridor's side."""
+    """One place in a strip; local axes: u along the corridor, v away from it, 0 at its side."""
 
     rect: Rect
     side: str
@@ -140,7 +140,7 @@ def _add_hall(spaces: list[Space], slot: Slot, t: float, rng: np.random.Generato
 def _flat_rooms(
     spaces: list[Space], slots: list[Slot], spec: BuildingSpec, t: float, rng: np.random.Generator
 ) -> list[Space]:
-    """Uses of a flat: the living room across the end, bedrooms on the deep side, kitchen and bath opposite."""
+    """Uses of a flat: living room across the end, bedrooms on the deep side, kitchen and bath opposite."""
     small = ["bathroom", "kitchen", "store", "bedroom"]
     for number, slot in enumerate(slots):
         if slot.side == "w":

@@ -35,9 +35,13 @@ class Scene:
 
 
 def _cast(scene: Any, rays: NDArray[np.float32]) -> NDArray[np.float32]:
+    return np.asarray(scene.cast_rays(_tensor(rays))["t_hit"].numpy(), dtype=np.float32)
+
+
+def _tensor(array: NDArray[Any]) -> Any:
     import open3d
 
-    return np.asarray(scene.cast_rays(open3d.core.Tensor(rays))["t_hit"].numpy(), dtype=np.float32)
+    return open3d.core.Tensor.from_numpy(np.ascontiguousarray(array))
 
 
 def make_scene(building: Building) -> Scene:
@@ -51,7 +55,7 @@ def _scene(solids: Float) -> Any:
 
     vertices, faces = triangles(solids)
     scene = open3d.t.geometry.RaycastingScene()
-    scene.add_triangles(open3d.core.Tensor(vertices), open3d.core.Tensor(faces))
+    scene.add_triangles(_tensor(vertices), _tensor(faces))
     return scene
 
 
@@ -127,7 +131,7 @@ def _with_errors(
         edge &= np.abs(np.where(edge, true, 0) - np.where(edge, beside, 0)) > EDGE
         at = np.nonzero(edge)
         mixed = rng.random(len(at[0])) < sensor.mixed_pixels
-        at = tuple(a[mixed] for a in at)  # type: ignore[assignment]
+        at = tuple(a[mixed] for a in at)
         part = rng.random(len(at[0]), dtype=np.float32)
         measured[at] = true[at] + part * (beside[at] - true[at])
     if sensor.noise > 0:

@@ -12,8 +12,10 @@ Float = NDArray[np.float64]
 SLAB = 0.2  # m, thickness of floor and ceiling
 _CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 _FACES = np.array(
-    [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4]]
-    + [[1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]
+    [
+        *([0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4]),
+        *([1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]),
+    ]
 )
 
 
@@ -38,7 +40,7 @@ def wall_rectangles(building: Building) -> Float:
 
 
 def merge_cells(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """(K, 4) i0, j0, i1, j1: disjoint rectangles that cover the True cells (row runs, stacked where equal)."""
+    """(K, 4) i0, j0, i1, j1: disjoint rectangles that cover the True cells (row runs, stacked)."""
     open_runs: dict[tuple[int, int], int] = {}
     done: list[tuple[int, int, int, int]] = []
     for j in range(len(mask) + 1):

@@ -32,6 +32,8 @@ def check(spec: Any) -> None:
         value, meta = getattr(spec, item.name), item.metadata
         if "choices" in meta and value not in meta["choices"]:
             raise UsageError(f"{item.name} must be one of {', '.join(meta['choices'])} (given {value!r}).")
+        if item.type == "int" and not isinstance(value, int):
+            raise UsageError(f"{item.name} ({meta['text']}) must be a whole number (given {value!r}).")
         if "low" in meta and not (value is None and item.default is None):
             _check_number(item.name, value, meta)
 
@@ -52,7 +54,7 @@ class BuildingSpec:
     """A family of buildings; ``make_building(spec, rng)`` draws one member. Metres."""
 
     style: str = chosen("straight", STYLES, "circulation")
-    rooms: int = bounded(12, 2, 3000, "number of rooms, roughly")
+    rooms: int = bounded(12, 2, 3000, "number of rooms, roughly; styles with wings have 10 to 20 at least")
     corridor_width: float = bounded(2.0, 1.1, 5.0, "mean clear width of corridors, m")
     room_width: float = bounded(4.2, 2.5, 12.0, "mean width of rooms along the corridor, m")
     room_depth: float = bounded(5.0, 2.5, 15.0, "mean depth of rooms, m")

@@ -81,7 +81,7 @@ def _ring(ring: Any) -> list[list[float]]:
     import shapely
 
     at = np.asarray(ring.coords)[:-1]
-    return (at if shapely.is_ccw(ring) else at[::-1]).tolist()
+    return [[float(x), float(y)] for x, y in (at if shapely.is_ccw(ring) else at[::-1])]
 
 
 def _door(door: DoorOpening) -> dict[str, Any]:
@@ -92,7 +92,7 @@ def _door(door: DoorOpening) -> dict[str, Any]:
         "height": door.height,
         "kind": door.kind,
         "open": door.open,
-        "axis": "xy"[door.axis],
+        "axis": door.axis,
     }
 
 
@@ -102,7 +102,7 @@ def _window(window: WindowOpening) -> dict[str, Any]:
         "room": window.space,
         "sill": window.sill,
         "head": window.head,
-        "axis": "xy"[window.axis],
+        "axis": window.axis,
     }
 
 
@@ -126,7 +126,7 @@ def _laser_blockers(building: Building) -> Float:
     ]
     things = np.vstack([*hulls, np.zeros((0, 6))])
     at_laser = things[(things[:, 2] < LASER) & (things[:, 5] > LASER)][:, [0, 1, 3, 4]]
-    holes = [o.bounds for o in (*building.doors, *building.windows)]
+    holes = [d.bounds for d in building.doors] + [w.bounds for w in building.windows]
     return np.vstack([at_laser, building.columns, np.array(holes).reshape(-1, 4)])
 
 

@@ -1,4 +1,4 @@
-"""The exploring path: through the circulation and into a chosen share of the rooms, never through furniture."""
+"""The exploring path: the circulation and a chosen share of the rooms, never through furniture."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ RADIUS = 0.22  # m, half the carrier's width and a little
 COMFORT = 0.6  # m from obstacles that the carrier likes to keep
 BODY = (0.05, 1.9)  # m above the floor between which things are in the way
 CORRIDOR_STEP = 6.0  # m between waypoints of the circulation
+LOBBY = 1.5  # m from obstacles in the middle of a lobby, at least
 BIG_ROOM = 22.0  # m2: gets a second waypoint
 
 
@@ -45,10 +46,11 @@ class Walk:
     path: Float  # (N, 2) metres, building axes, steps of about half a cell to one cell
     stops: NDArray[np.int64]  # (S,) rows of ``path`` that are waypoints
     stop_space: NDArray[np.int64]  # (S,) the space of each waypoint
+    look: Mask  # (S,) there is much to see around: a room, or a lobby
     entered: tuple[int, ...]  # indices of the spaces that the path enters, the corridor included
 
 
-def cells_in(rects: Float, origin: Float, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
+def cells_in(rects: Float, origin: Float, shape: tuple[int, ...]) -> list[tuple[slice, slice]]:
     """For each rectangle the rows and columns of the cells whose centre it holds."""
     low = np.ceil((rects[:, :2] - origin) / CELL - 0.5).astype(int)
     high = np.ceil((rects[:, 2:] - origin) / CELL - 0.5).astype(int)
@@ -116,7 +118,8 @@ def explore(building: Building, grid: FloorGrid, share: float, rng: np.random.Ge
     cells = np.concatenate(legs)
     entered = tuple(sorted({int(i) for i in np.unique(grid.space.ravel()[cells]) if i >= 0}))
     spaces = grid.space.ravel()[cells[stops]].astype(np.int64)
-    return Walk(_smooth(grid.centre(cells), grid), np.array(stops), spaces, entered)
+    look = (spaces > 0) | (grid.clearance.ravel()[cells[stops]] > LOBBY)
+    return Walk(_smooth(grid.centre(cells), grid), np.array(stops), spaces, look, entered)
 
 
 def choose_rooms(building: Building, grid: FloorGrid, share: float, rng: np.random.Generator) -> set[int]:
