@@ -46,7 +46,7 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
     """The leaves of a door; none for an opening."""
     if opening.door.kind != "door":
         return ()
-    options = []
+    options: list[tuple[tuple[bool, bool, bool, float], int, tuple[Leaf, ...]]] = []
     polygons = np.array([r.polygon for r in regions], dtype=object)
     for direction in (-1, 1):
         inside = np.flatnonzero(shapely.contains_xy(polygons, *_beyond(opening, direction)))

@@ -204,4 +204,4 @@ def _clean(values: Float, decimals: int) -> Float:
 
 
 def _metres(value: float) -> float:
-    return float(_clean(np.float64(value), DECIMALS))
+    return round(float(value), DECIMALS) + 0.0

@@ -1,7 +1,8 @@
 """Where the text of a region goes: the largest variant that fits on free floor, at the best spot.
 
-Free floor is the region without the swing of its doors, on the page. A spot is good near the region's
-centroid (its pole of inaccessibility where the centroid is outside). Unit-free: callers use page millimetres.
+Free floor is the region without the swing of its doors, on the page. Of the spots where the text fits, the
+one nearest to the region's centroid is taken: the middle of a room, the middle of a corridor's nearest arm.
+What fits nowhere goes to the pole of inaccessibility. Unit-free: callers use page millimetres.
 """
 
 from __future__ import annotations
@@ -61,7 +62,8 @@ def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Pl
             if found is not None:
                 return found
     smallest = tuple(Line(w.text, w.size * SHRINK[-1], w.style) for w in lines[:1])
-    return Placed(smallest, float(spots[0, 0]), float(spots[0, 1]), False, False)
+    x, y = _pole(free)
+    return Placed(smallest, x, y, False, False)
 
 
 def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float) -> Placed | None:
@@ -82,7 +84,7 @@ def _spots(free: Any, floor: Any) -> Float:
     shapely.prepare(free)
     corners = shapely.get_coordinates(floor)
     grid = np.stack(np.meshgrid(_ticks(corners[:, 0]), _ticks(corners[:, 1])), axis=-1).reshape(-1, 2)
-    home = _home(free)
+    home = shapely.get_coordinates(free.centroid)[0]
     inside = grid[shapely.contains_xy(free, grid)]
     near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
     return np.vstack([home[None], inside[near]])
@@ -95,10 +97,8 @@ def _ticks(values: Float) -> Float:
     return np.unique(np.concatenate([spread, (edges[1:] + edges[:-1]) / 2]))
 
 
-def _home(free: Any) -> Float:
-    """The centroid where it lies inside; else the pole of inaccessibility."""
-    centre = free.centroid
-    if not free.contains(centre):
-        circle = shapely.maximum_inscribed_circle(free, tolerance=max(free.length / 500, 1e-6))
-        return np.array(circle.coords[0], dtype=np.float64)
-    return np.array(centre.coords[0], dtype=np.float64)
+def _pole(free: Any) -> tuple[float, float]:
+    """The pole of inaccessibility: the centre of the largest circle inside."""
+    circle = shapely.maximum_inscribed_circle(free, tolerance=max(free.length / 500, 1e-6))
+    x, y = circle.coords[0]
+    return float(x), float(y)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from floorplan_core.exporters import palette
 from floorplan_core.exporters.sheet import BLOCKS, COLUMN, MARGIN, Sheet
@@ -72,7 +73,7 @@ def _count(n: int, noun: str) -> str:
     return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
 
 
-def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, object]]]:
+def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
     """Text and swatch attributes, in reading order down the columns."""
     fine = {"stroke": palette.GREY, "stroke_width": 0.1}
     others = sorted({r.label for r in plan.regions} - set(palette.TONES))

@@ -149,4 +149,4 @@ def _assemble(rings: list[Any], homes: list[int]) -> list[Any]:
     for home in sorted(patches):
         shell, *holes = sorted(patches[home], key=lambda p: -p.area)
         polygons.append(shapely.Polygon(shell.exterior, [h.exterior for h in holes]))
-    return shapely.orient_polygons(polygons).tolist()
+    return list(shapely.orient_polygons(polygons))

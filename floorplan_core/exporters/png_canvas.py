@@ -1,0 +1,141 @@
+"""Pictures: a view of the plan in pixels, and what all pictures share (text, outlines, scale bar).
+
+Geometry is along the pixel axes (manhattan frame), so filled areas are exact masks; only text is antialiased.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from floorplan_core.geometry.raster import polygon_mask
+from floorplan_core.model import FloorPlan
+
+Float = NDArray[np.float64]
+Colour = tuple[int, int, int]
+Bounds = tuple[float, float, float, float]
+
+LONG_SIDE = 1600  # pixels
+BORDER = 1.0  # metres around the plan
+STRIP = 64  # pixels under the plan, for scale bar and caption
+BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres
+BAR_SHARE = 0.2  # of the picture's width that the scale bar may take
+PNG_LEVEL = 1  # zlib: the fastest; pictures of flat colours are small anyway
+
+
+@dataclass(frozen=True)
+class View:
+    """A part of the plan on a grid of pixels; row 0 is the lowest, pictures are flipped when finished."""
+
+    x0: float  # metres, manhattan frame, left edge
+    y0: float  # metres, lower edge
+    scale: float  # pixels for a metre
+    width: int  # pixels
+    height: int  # pixels, without the strip
+
+    @property
+    def origin(self) -> Float:
+        """(2,) the lower left corner, metres."""
+        return np.array([self.x0, self.y0])
+
+    def pixels(self, points: Float) -> Float:
+        """(N, 2) plan coordinates to picture coordinates (x right, y down)."""
+        p = (np.asarray(points, dtype=np.float64).reshape(-1, 2) - self.origin) * self.scale
+        return np.column_stack([p[:, 0], self.height - p[:, 1]])
+
+    def mask(self, polygon: Any) -> NDArray[np.bool_]:
+        """(height, width) pixels inside a shapely polygon, row 0 lowest."""
+        return polygon_mask(polygon, self.origin, 1.0 / self.scale, (self.height, self.width))
+
+    def sample(self, cells: NDArray[Any], origin: Float, cell: float, outside: Any) -> NDArray[Any]:
+        """(height, width) the value of the cell under each pixel; ``outside`` beyond the grid."""
+        padded = np.pad(cells, 1, constant_values=outside)
+        ix = self._cells(self.x0 - origin[0], self.width, cell, cells.shape[1])
+        iy = self._cells(self.y0 - origin[1], self.height, cell, cells.shape[0])
+        return padded[iy][:, ix]
+
+    def _cells(self, start: float, pixels: int, cell: float, count: int) -> NDArray[np.int64]:
+        at = np.floor((start + (np.arange(pixels) + 0.5) / self.scale) / cell).astype(np.int64)
+        inside: NDArray[np.int64] = np.clip(at + 1, 0, count + 1)
+        return inside
+
+
+def plan_bounds(plan: FloorPlan) -> Bounds:
+    """x0, y0, x1, y1 of the regions, of the grid where there are none (metres, manhattan frame)."""
+    if not plan.regions:
+        return plan.grid.extent
+    x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in plan.regions]).tolist()
+    return x0, y0, x1, y1
+
+
+def fit_view(bounds: Bounds, long_side: int = LONG_SIDE) -> View:
+    """The view of ``bounds`` with a border, ``long_side`` pixels on its longer side."""
+    x0, y0, x1, y1 = bounds
+    w, h = x1 - x0 + 2 * BORDER, y1 - y0 + 2 * BORDER
+    scale = long_side / max(w, h)
+    return View(x0 - BORDER, y0 - BORDER, scale, max(1, round(w * scale)), max(1, round(h * scale)))
+
+
+def paper(view: View, colour: Colour) -> NDArray[np.uint8]:
+    """(height, width, 3) of one colour, row 0 lowest."""
+    return np.full((view.height, view.width, 3), colour, dtype=np.uint8)
+
+
+def finish(pixels: NDArray[np.uint8], ground: Colour, strip: int = STRIP) -> tuple[Image.Image, Any]:
+    """Turn the array the right way up, add the strip below; the picture and its drawing context."""
+    below = np.full((strip, pixels.shape[1], 3), ground, dtype=np.uint8)
+    image = Image.fromarray(np.concatenate([pixels[::-1], below]))
+    return image, ImageDraw.Draw(image)
+
+
+@lru_cache(maxsize=64)
+def font(size: int) -> Any:
+    """Pillow's own scalable font: the same on every machine."""
+    return ImageFont.load_default(size=size)
+
+
+def draw_rings(draw: Any, view: View, polygon: Any, colour: Colour, width: int) -> None:
+    """The outline of a shapely polygon, its holes included."""
+    for ring in (polygon.exterior, *polygon.interiors):
+        points = view.pixels(shapely.get_coordinates(ring)).round().astype(int)
+        draw.line([tuple(p) for p in points.tolist()], fill=colour, width=width, joint="curve")
+
+
+def draw_dashed(draw: Any, a: Float, b: Float, colour: Colour, width: int, dash: float = 9.0) -> None:
+    """A dashed line between two picture points."""
+    length = float(np.hypot(*(b - a)))
+    for start in np.arange(0.0, length, 2 * dash).tolist():
+        ends = [a + (b - a) * min(t, length) / length for t in (start, start + dash)]
+        draw.line([tuple(e) for e in ends], fill=colour, width=width)
+
+
+def draw_scale_bar(draw: Any, view: View, x: float, y: float, colour: Colour) -> None:
+    """A bar of a round length with its right end at ``x`` and its line at ``y``."""
+    fitting = [m for m in BAR_LENGTHS if m * view.scale <= BAR_SHARE * view.width]
+    length = max(fitting, default=BAR_LENGTHS[0])
+    left = x - length * view.scale
+    draw.rectangle([left, y - 3, x, y + 2], fill=colour)
+    draw.text(((left + x) / 2, y - 8), f"{length:g} m", fill=colour, font=font(18), anchor="mb")
+
+
+def draw_caption(draw: Any, entries: Iterable[tuple[str, Colour | None]], y: float, ink: Colour) -> None:
+    """Swatches and words from the left; an entry without a colour is text only."""
+    x = 24.0
+    for text, colour in entries:
+        if colour is not None:
+            draw.rectangle([x, y - 8, x + 22, y + 8], fill=colour, outline=ink)
+            x += 32
+        draw.text((x, y), text, fill=ink, font=font(18), anchor="lm")
+        x += draw.textlength(text, font=font(18)) + 28
+
+
+def save(image: Image.Image, path: Any) -> None:
+    """Write as PNG whatever the suffix is (callers write to temporary names)."""
+    image.save(path, format="PNG", compress_level=PNG_LEVEL)
