@@ -16,6 +16,8 @@ Exposure = Literal["entered", "glimpsed", "hidden"]
 
 # Below this share of its floor seen, a room that was not entered cannot be expected in the plan.
 MIN_SEEN = 0.15
+# A room that was entered at one end only is no better known than one seen through its door (long corridors).
+MIN_SEEN_ENTERED = 0.5
 IDENTITY: Float = np.eye(3)[:2]
 
 
@@ -31,10 +33,11 @@ class TruthRoom:
 
     @property
     def exposure(self) -> Exposure:
-        """Entered; glimpsed (seen from outside); or hidden: seen too little to be expected in a plan."""
-        if self.entered:
+        """Entered; glimpsed (seen in part); or hidden: seen too little to be expected in a plan."""
+        seen = 1.0 if self.seen is None else self.seen
+        if self.entered and seen >= MIN_SEEN_ENTERED:
             return "entered"
-        return "hidden" if self.seen is not None and self.seen < MIN_SEEN else "glimpsed"
+        return "glimpsed" if seen >= MIN_SEEN else "hidden"
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,9 @@ from floorplan_core.evaluation.truth import (
 # In the order in which they are looked for in a folder.
 TRUTH_NAMES = ("truth.json", "gt_plan.json", "gt_ifc.json", "free_voxels.npz")
 WALL_MARGIN = 0.05  # m, the outermost face may lie this much beyond the stated wall thickness
+USUAL_WALL = 0.3  # m, where the truth does not say
 MIN_ROOM_AREA = 0.2  # m2; smaller polygons are remains of the truth's own making
+MIN_SEEN_DOOR = 0.02  # share of a room's floor; less means that nobody looked through its door
 OPENING_KINDS = ("opening", "passage", "open")
 
 
@@ -119,15 +121,21 @@ def _bounds(entry: dict[str, Any]) -> tuple[float, float, float, float]:
 
 
 def _door(entry: dict[str, Any], rooms: tuple[TruthRoom, ...]) -> TruthDoor:
-    """A door counts when it is open and joins rooms of which at least one was entered."""
+    """A door is required when it is open, joins a room that was entered, and both its sides were seen."""
     bounds = _bounds(entry)
     joins = tuple(int(i) for i in entry.get("joins", ()) if i is not None and int(i) >= 0)
     kind = "opening" if entry.get("kind") in OPENING_KINDS else "door"
     is_open = bool(entry.get("open", True)) and not entry.get("shut", False)
     reached = not joins or any(rooms[i].entered for i in joins)
+    seen = all(_seen(rooms[i]) >= MIN_SEEN_DOOR for i in joins)
     inside = len(joins) != 1
     axis = int(entry.get("axis", door_axis(bounds)))
-    return TruthDoor(bounds, axis, kind, required=is_open and reached and inside, joins=joins)
+    return TruthDoor(bounds, axis, kind, required=is_open and reached and seen and inside, joins=joins)
+
+
+def _seen(room: TruthRoom) -> float:
+    """Share of the floor; all of it where the truth does not say."""
+    return 1.0 if room.seen is None else room.seen
 
 
 def _window(entry: dict[str, Any]) -> TruthDoor:
@@ -153,7 +161,5 @@ def _world_from_building(document: dict[str, Any]) -> Float:
 
 
 def _wall(document: dict[str, Any]) -> float:
-    """Thickest wall, whatever words the truth uses."""
-    wall = document.get("wall", 0.3)
-    values = wall.values() if isinstance(wall, dict) else wall if isinstance(wall, list) else [wall]
-    return max(float(v) for v in values)
+    """Thickest wall."""
+    return max(float(document.get(key, 0.0)) for key in ("wall", "exterior_wall")) or USUAL_WALL
