@@ -14,9 +14,10 @@ from PIL import Image, ImageDraw
 
 from floorplan_core.errors import UsageError
 from floorplan_core.exporters.png import INK, WHITE, occupancy_image, plan_image
-from floorplan_core.exporters.png_canvas import Bounds, View, fit_view, font, plan_bounds, save
+from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, fit_view, font, plan_bounds, save
 from floorplan_core.model import FloorPlan
 
+FRAME = (205, 210, 215)
 PANEL = 760  # pixels, longer side of one panel
 GAP = 28  # pixels
 TITLE = 54  # pixels
@@ -87,5 +88,6 @@ def _column(plan: FloorPlan, title: str, view: View) -> Image.Image:
     free, total = (sum(getattr(r, k) for r in plan.regions) for k in ("free_cells", "total_cells"))
     seen = f", {100 * free / total:.0f} % seen" if total else ""
     facts = f"{len(plan.regions)} regions, {sum(r.area for r in plan.regions):.1f} m²{seen}"
-    draw.text((0, TITLE - 8), facts, fill=INK, font=font(16), anchor="lb")
+    draw_text(draw, (0, TITLE - 16), facts, 16, INK)
+    draw.rectangle([0, TITLE + view.height + GAP, view.width - 1, column.height - 1], outline=FRAME)
     return column

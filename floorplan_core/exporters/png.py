@@ -9,10 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
 from floorplan_core.exporters.palette import rgb
+from floorplan_core.exporters.placement import LEADING, Line, block_size, place
 from floorplan_core.exporters.png_canvas import (
     STRIP,
     Colour,
@@ -21,30 +23,33 @@ from floorplan_core.exporters.png_canvas import (
     draw_dashed,
     draw_rings,
     draw_scale_bar,
+    draw_text,
     finish,
     fit_view,
-    font,
     paper,
     plan_bounds,
     save,
 )
+from floorplan_core.exporters.walls import predicted_cells
 from floorplan_core.model import FREE, Door, FloorPlan, Region
 from floorplan_core.model.floor_plan import regions_mask
 
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 INK = rgb("#1f2933")
-RED, GREEN, DIM = (214, 39, 40), (22, 138, 62), (188, 194, 200)
+RED, GREEN, DIM = (205, 25, 30), (14, 122, 52), (190, 196, 202)
+RED_LINE, GREEN_LINE = (238, 150, 150), (140, 200, 158)
 FREE_KNOWN, FREE_GUESSED, OUTLINE = WHITE, (150, 150, 150), (45, 115, 255)
 ROOM, CORRIDOR, OTHER, DOOR = rgb("#9fe3ec"), rgb("#f2b3d9"), rgb("#ddd6bd"), rgb("#ffd400")
-FLOORS = {"room": ROOM, "corridor": CORRIDOR}
+LABELS = ("room", "corridor")
+FLOORS = (ROOM, CORRIDOR, OTHER)
 
 DOT, DOT_STEP = 4, 10  # pixels: dotted planes
-POINT = 2  # pixels
-HATCH, HATCH_STEP = 2, 12  # pixels: predicted floor
-LIGHTER = 0.55  # how far predicted floor goes towards white
+POINT = 3  # pixels
+HATCH, HATCH_STEP = 3, 12  # pixels: predicted floor
+LIGHTER = 0.7  # how far predicted floor goes towards white
 WALL_LINE = 4  # pixels
 DOOR_DEPTH = 0.25  # metres: a door without a known thickness
-NAME, AREA, SMALLEST = 30, 17, 10  # pixels
+NAME, AREA, PAD = 30, 17, 5  # pixels
 
 
 class PlanesPngExporter:
@@ -89,6 +94,8 @@ def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (a)."""
     view = view or fit_view(plan_bounds(plan))
     pixels = paper(view, WHITE)
+    for plane in plan.planes:
+        _dotted(pixels, view, plane.facing.axis, plane.offset, (RED_LINE, GREEN_LINE)[plane.facing.axis])
     points = plan.wall_points
     for colour, chosen in (
         (DIM, points.facing < 0),
@@ -96,8 +103,6 @@ def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
         (GREEN, points.facing >= 2),
     ):
         _dots(pixels, view, points.xy[chosen], colour)
-    for plane in plan.planes:
-        _dotted(pixels, view, plane.facing.axis, plane.offset, RED if plane.facing.axis == 0 else GREEN)
     image, draw = finish(pixels, WHITE)
     count = [sum(p.facing.axis == axis for p in plan.planes) for axis in (0, 1)]
     entries = [(f"x planes ({count[0]})", RED), (f"y planes ({count[1]})", GREEN), ("other points", DIM)]
@@ -164,17 +169,16 @@ def _dotted(pixels: NDArray[np.uint8], view: View, axis: int, offset: float, col
 
 def _floors(plan: FloorPlan, view: View) -> NDArray[np.uint8]:
     """Regions in the colour of their label; where they are predicted, lighter and hatched."""
-    pixels = paper(view, WHITE)
-    seen = view.sample(plan.grid.states == FREE, plan.grid.origin, plan.grid.cell, False)
-    rows, columns = np.indices((view.height, view.width), sparse=True)
-    hatch = (rows + columns) % HATCH_STEP < HATCH
+    code = np.zeros((view.height, view.width), dtype=np.uint8)
     for region in plan.regions:
-        colour = FLOORS.get(region.label, OTHER)
-        inside = view.mask(region.polygon)
-        pale = tuple(round(c + LIGHTER * (255 - c)) for c in colour)
-        pixels[inside] = colour
-        pixels[inside & ~seen & ~hatch] = pale
-    return pixels
+        window, inside = view.window(region.polygon)
+        code[window][inside] = 1 + LABELS.index(region.label) if region.label in LABELS else len(FLOORS)
+    rows, columns = np.indices(code.shape, sparse=True)
+    gap = (rows + columns) % HATCH_STEP >= HATCH
+    pale = view.sample(predicted_cells(plan), plan.grid.origin, plan.grid.cell, False) & gap
+    lighter = [tuple(round(c + LIGHTER * (255 - c)) for c in colour) for colour in FLOORS]
+    table = np.array([WHITE, *FLOORS, WHITE, *lighter], dtype=np.uint8)
+    return np.take(table, code + (1 + len(FLOORS)) * pale, axis=0)
 
 
 def _draw_sides(draw: Any, view: View, region: Region) -> None:
@@ -200,31 +204,11 @@ def _draw_door(draw: Any, view: View, door: Door) -> None:
 
 
 def _draw_name(draw: Any, view: View, region: Region) -> None:
-    """The number or name, and the area where there is room, at a point well inside."""
-    x, y = view.pixels(np.array(_anchor(region)))[0].tolist()
-    x0, y0, x1, y1 = region.polygon.bounds
-    room = 0.8 * min(x1 - x0, 3 * (y1 - y0)) * view.scale
-    area = f"{region.area:.1f} m²"
-    sizes = [_fitting(draw, text, size, room) for text, size in ((region.name, NAME), (area, AREA))]
-    if sizes[1] >= SMALLEST and sizes[0] + sizes[1] + 8 < 0.8 * (y1 - y0) * view.scale:
-        draw.text((x, y), region.name, fill=INK, font=font(sizes[0]), anchor="mb")
-        draw.text((x, y + 6), area, fill=INK, font=font(sizes[1]), anchor="mt")
-    else:
-        draw.text((x, y), region.name, fill=INK, font=font(max(sizes[0], SMALLEST)), anchor="mm")
-
-
-def _anchor(region: Region) -> tuple[float, float]:
-    """The centroid, or the pole of inaccessibility where the centroid lies outside."""
-    import shapely
-
-    point = region.polygon.centroid
-    if not region.polygon.contains(point):
-        circle = shapely.maximum_inscribed_circle(region.polygon, tolerance=0.05)
-        return float(circle.coords[0][0]), float(circle.coords[0][1])
-    return float(point.x), float(point.y)
-
-
-def _fitting(draw: Any, text: str, size: int, room: float) -> int:
-    """The font size at which ``text`` is no wider than ``room`` pixels."""
-    width = draw.textlength(text, font=font(size))
-    return size if width <= room else int(size * room / width)
+    """The number or name, and the area where there is room for it."""
+    floor = shapely.transform(region.polygon, view.pixels)
+    lines = (Line(region.name, NAME, "name"), Line(f"{region.area:.1f} m²", AREA, "area"))
+    placed = place(lines, floor, PAD)
+    top = placed.y - block_size(placed.lines)[1] / 2
+    for line in placed.lines:
+        draw_text(draw, (placed.x, top + line.size * LEADING / 2), line.text, round(line.size), INK, 0.5)
+        top += line.size * LEADING

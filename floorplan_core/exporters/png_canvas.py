@@ -5,6 +5,7 @@ Geometry is along the pixel axes (manhattan frame), so filled areas are exact ma
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,7 +16,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from floorplan_core.geometry.raster import polygon_mask
+from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.model import FloorPlan
 
 Float = NDArray[np.float64]
@@ -27,6 +28,7 @@ BORDER = 1.0  # metres around the plan
 STRIP = 64  # pixels under the plan, for scale bar and caption
 BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres
 BAR_SHARE = 0.2  # of the picture's width that the scale bar may take
+SUPERSCRIPT, RAISE, CAP = 0.62, 0.32, 0.72  # of the font size: a raised 2, its lift; height of capitals
 PNG_LEVEL = 1  # zlib: the fastest; pictures of flat colours are small anyway
 
 
@@ -50,9 +52,9 @@ class View:
         p = (np.asarray(points, dtype=np.float64).reshape(-1, 2) - self.origin) * self.scale
         return np.column_stack([p[:, 0], self.height - p[:, 1]])
 
-    def mask(self, polygon: Any) -> NDArray[np.bool_]:
-        """(height, width) pixels inside a shapely polygon, row 0 lowest."""
-        return polygon_mask(polygon, self.origin, 1.0 / self.scale, (self.height, self.width))
+    def window(self, polygon: Any) -> tuple[tuple[slice, slice], NDArray[np.bool_]]:
+        """Rows, columns and mask of the pixels inside a shapely polygon, row 0 lowest."""
+        return polygon_window(polygon, self.origin, 1.0 / self.scale, (self.height, self.width))
 
     def sample(self, cells: NDArray[Any], origin: Float, cell: float, outside: Any) -> NDArray[Any]:
         """(height, width) the value of the cell under each pixel; ``outside`` beyond the grid."""
@@ -101,6 +103,24 @@ def font(size: int) -> Any:
     return ImageFont.load_default(size=size)
 
 
+def draw_text(
+    draw: Any, at: tuple[float, float], text: str, size: int, ink: Colour, align: float = 0.0
+) -> float:
+    """Text in the middle of whose height lies ``at``; 0 starts there, 0.5 is centred. Returns its width.
+
+    Pillow's font has no superscript two, so one is made of a small raised 2.
+    """
+    parts = [(part, i % 2 == 1) for i, part in enumerate(re.split("(²)", text)) if part]
+    fonts = [font(max(1, round(size * SUPERSCRIPT)) if raised else size) for _, raised in parts]
+    shown = ["2" if raised else part for part, raised in parts]
+    widths = [float(draw.textlength(t, font=f)) for t, f in zip(shown, fonts, strict=True)]
+    x, baseline = at[0] - align * sum(widths), at[1] + size * CAP / 2
+    for (_, raised), t, f, width in zip(parts, shown, fonts, widths, strict=True):
+        draw.text((x, baseline - (RAISE * size if raised else 0)), t, fill=ink, font=f, anchor="ls")
+        x += width
+    return sum(widths)
+
+
 def draw_rings(draw: Any, view: View, polygon: Any, colour: Colour, width: int) -> None:
     """The outline of a shapely polygon, its holes included."""
     for ring in (polygon.exterior, *polygon.interiors):
@@ -132,8 +152,7 @@ def draw_caption(draw: Any, entries: Iterable[tuple[str, Colour | None]], y: flo
         if colour is not None:
             draw.rectangle([x, y - 8, x + 22, y + 8], fill=colour, outline=ink)
             x += 32
-        draw.text((x, y), text, fill=ink, font=font(18), anchor="lm")
-        x += draw.textlength(text, font=font(18)) + 28
+        x += draw_text(draw, (x, y), text, 18, ink) + 28
 
 
 def save(image: Image.Image, path: Any) -> None:

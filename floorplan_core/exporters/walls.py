@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from floorplan_core.model import FREE, Door, FloorPlan, Region, RegionSide
 from floorplan_core.model.floor_plan import regions_mask
@@ -114,17 +115,24 @@ def _strips(region: Region, side: RegionSide, thickness: float, thickest: float)
     ]
 
 
-def predicted_floor(plan: FloorPlan) -> Any:
-    """Predicted floor without the specks along walls and under furniture, clipped to the regions."""
-    from scipy.ndimage import binary_opening, label
+def predicted_cells(plan: FloorPlan) -> NDArray[np.bool_]:
+    """(ny, nx) cells of predicted floor, without the specks along walls and under furniture."""
+    from scipy.ndimage import binary_dilation, binary_opening, label
 
+    unseen = regions_mask(plan.regions, plan.grid) & (plan.grid.states != FREE)
+    block = np.ones((3, 3), dtype=bool)
+    patches, _ = label(binary_dilation(binary_opening(unseen, block), block, mask=unseen))
+    sizes = np.bincount(patches.ravel()) * plan.grid.cell**2
+    sizes[0] = 0.0
+    large: NDArray[np.bool_] = sizes[patches] >= MIN_PREDICTED
+    return large
+
+
+def predicted_floor(plan: FloorPlan) -> Any:
+    """The same as a shapely geometry with smoothed edges, clipped to the regions."""
     from floorplan_core.geometry.raster import cells_to_polygon
 
     cell = plan.grid.cell
-    unseen = regions_mask(plan.regions, plan.grid) & (plan.grid.states != FREE)
-    patches, _ = label(binary_opening(unseen, np.ones((3, 3), dtype=bool)))
-    sizes = np.bincount(patches.ravel()) * cell**2
-    sizes[0] = 0.0
-    area = cells_to_polygon(sizes[patches] >= MIN_PREDICTED, plan.grid.origin, cell)
+    area = cells_to_polygon(predicted_cells(plan), plan.grid.origin, cell)
     floor = shapely.union_all([r.polygon for r in plan.regions])
     return area.simplify(cell).buffer(0.6 * cell, join_style="mitre").intersection(floor)

@@ -22,16 +22,24 @@ Bool = NDArray[np.bool_]
 def polygon_mask(polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]) -> Bool:
     """(ny, nx) True where the centre of a cell lies inside ``polygon`` (shapely, metres), holes left out."""
     mask = np.zeros(shape, dtype=bool)
+    window, inside = polygon_window(polygon, origin, cell, shape)
+    mask[window] = inside
+    return mask
+
+
+def polygon_window(
+    polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]
+) -> tuple[tuple[slice, slice], Bool]:
+    """The same for the cells around the polygon only: rows and columns, and their mask."""
     if polygon.is_empty:
-        return mask
+        return (slice(0, 0), slice(0, 0)), np.zeros((0, 0), dtype=bool)
     x0, y0, x1, y1 = polygon.bounds
     i0, i1 = (_index(v, origin[0], cell, shape[1]) for v in (x0, x1))
     j0, j1 = (_index(v, origin[1], cell, shape[0]) for v in (y0, y1))
     crossings = np.zeros((j1 - j0, i1 - i0 + 1), dtype=bool)
     for edge in _edges(polygon):
         _toggle(crossings, edge, (i0, j0), origin, cell)
-    mask[j0:j1, i0:i1] = np.logical_xor.accumulate(crossings[:, :-1], axis=1)
-    return mask
+    return (slice(j0, j1), slice(i0, i1)), np.logical_xor.accumulate(crossings[:, :-1], axis=1)
 
 
 def _index(value: float, origin: float, cell: float, count: int) -> int:
