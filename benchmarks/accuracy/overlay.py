@@ -14,10 +14,12 @@ from floorplan_core.evaluation.plan_file import PlanFile
 from floorplan_core.evaluation.truth import Truth
 
 LONG_SIDE, MARGIN, HEADER, OVERSAMPLING = 1500, 40, 96, 2  # pixels of the finished picture
+HATCH = 0.25  # m
 INK, PAPER, TRUTH, GUESS = (38, 44, 52), (255, 255, 255), (205, 40, 60), (120, 128, 138)
 FILL = {"room": (214, 238, 242), "corridor": (243, 220, 238)}
 OTHER = (232, 232, 226)
 FOUND, MISSED, FALSE, OPTIONAL = (30, 140, 80), (205, 40, 60), (240, 140, 0), (150, 156, 164)
+LOST, HIDDEN = (252, 226, 226), (240, 240, 238)
 FREE, WALL = (206, 232, 208), (90, 60, 60)
 
 
@@ -41,10 +43,13 @@ class Canvas:
         return list(zip(x.tolist(), y.tolist(), strict=True))
 
     def polygon(self, shape: Any, fill: tuple[int, int, int]) -> None:
-        """Filled, holes left as paper."""
-        self.draw.polygon(self.pixels(shape.exterior.coords), fill=fill)
+        """Filled; holes keep what is under them."""
+        mask = Image.new("1", self.image.size)
+        draw = ImageDraw.Draw(mask)
+        draw.polygon(self.pixels(shape.exterior.coords), fill=1)
         for hole in shape.interiors:
-            self.draw.polygon(self.pixels(hole.coords), fill=PAPER)
+            draw.polygon(self.pixels(hole.coords), fill=0)
+        self.image.paste(fill, (0, 0), mask)
 
     def outline(self, shape: Any, color: tuple[int, int, int], width: float) -> None:
         """All rings of a polygon."""
@@ -67,8 +72,7 @@ class Canvas:
     def save(self, path: Path) -> None:
         """Write the PNG at its finished size."""
         size = self.image.width // OVERSAMPLING, self.image.height // OVERSAMPLING
-        reduced = self.image.resize(size, Image.Resampling.LANCZOS)
-        reduced.quantize(96, dither=Image.Dither.NONE).save(path, optimize=True)
+        self.image.resize(size, Image.Resampling.BOX).save(path, optimize=True)
 
 
 def draw_overlay(plan: PlanFile, truth: Truth, title: str, remark: str, path: Path) -> None:
@@ -76,6 +80,8 @@ def draw_overlay(plan: PlanFile, truth: Truth, title: str, remark: str, path: Pa
     local = plan.moved(inverse(truth.world_from_building))
     canvas = Canvas(_bounds(local, truth))
     _observed(canvas, truth)
+    for room in truth.rooms:
+        canvas.polygon(room.polygon, HIDDEN if room.exposure == "hidden" else LOST)
     for region in local.regions:
         for part in getattr(region.polygon, "geoms", [region.polygon]):
             canvas.polygon(part, FILL.get(region.label, OTHER))
@@ -88,6 +94,7 @@ def draw_overlay(plan: PlanFile, truth: Truth, title: str, remark: str, path: Pa
     _doors(canvas, local, truth)
     _names(canvas, local)
     _header(canvas, title, remark)
+    _scale_bar(canvas)
     canvas.save(path)
 
 
@@ -95,6 +102,7 @@ def _bounds(plan: PlanFile, truth: Truth) -> tuple[float, float, float, float]:
     import shapely
 
     shapes = [r.polygon for r in plan.regions] + [r.polygon for r in truth.rooms]
+    shapes += [shapely.box(*d.bounds) for d in truth.doors]
     boxes = np.array([shapely.bounds(s) for s in shapes]).reshape(-1, 4)
     if truth.observed is not None:
         (ny, nx), cell, origin = truth.observed.free.shape, truth.observed.cell, truth.observed.origin
@@ -119,13 +127,13 @@ def _observed(canvas: Canvas, truth: Truth) -> None:
 
 
 def _hatch(canvas: Canvas, area: Any) -> None:
-    """Predicted floor: diagonal lines, 0.35 m apart."""
+    """Predicted floor: diagonal lines, ``HATCH`` metres apart."""
     import shapely
 
     if area.is_empty:
         return
     x0, y0, x1, y1 = area.bounds
-    starts = np.arange(x0 - (y1 - y0), x1, 0.35)
+    starts = np.arange(x0 - (y1 - y0), x1, HATCH)
     lines = shapely.linestrings([[(s, y0), (s + y1 - y0, y1)] for s in starts])
     for part in shapely.get_parts(shapely.intersection(lines, area)):
         for line in shapely.get_parts(part):
@@ -165,7 +173,18 @@ def _header(canvas: Canvas, title: str, remark: str) -> None:
         ("door missed", MISSED),
         ("false door", FALSE),
         ("shut door, window", OPTIONAL),
-        ("predicted floor: hatched", GUESS),
+        ("floor missed: pink, never seen: grey, predicted: hatched", GUESS),
     ):
         canvas.text((x, 78), word, 13, color)
         x += 24 + round(canvas.draw.textlength(word, font=ImageFont.load_default(size=13)))
+
+
+def _scale_bar(canvas: Canvas) -> None:
+    """A bar of about a tenth of the picture, in round metres, at the top right."""
+    pixels = canvas.scale / OVERSAMPLING
+    metres = next((m for m in (1, 2, 5, 10, 20, 50) if m * pixels >= 0.08 * LONG_SIDE), 100)
+    right, y = canvas.image.width / OVERSAMPLING - MARGIN, 40
+    ends = [(right - metres * pixels, y), (right, y)]
+    scaled = [(a * OVERSAMPLING, b * OVERSAMPLING) for a, b in ends]
+    canvas.draw.line(scaled, fill=INK, width=3 * OVERSAMPLING)
+    canvas.text((right, y + 8), f"{metres} m", 13, anchor="ra")

@@ -60,7 +60,7 @@ def _total(metric: Metric, records: Sequence[Record], last: Sequence[Record]) ->
         metric.title,
         target(metric),
         *(marked(value, metric) for value in means),
-        number(low and low[metric.key], metric.digits),
+        marked_worst(low and low[metric.key], metric),
         low["name"] if low else "",
         change(means[1], before, metric),
     ]
@@ -81,6 +81,13 @@ def marked(value: float | None, metric: Metric) -> str:
     if value is None or metric.target is None:
         return text
     return text if metric.good * (value - metric.target) >= 0 else f"{text} ✗"
+
+
+def marked_worst(value: float | None, metric: Metric) -> str:
+    """The same for the worst survey."""
+    text = number(value, metric.digits)
+    missed = value is not None and metric.worst is not None and metric.good * (value - metric.worst) < 0
+    return f"{text} ✗" if missed else text
 
 
 def surveys(records: Sequence[Record]) -> Table:

@@ -154,7 +154,6 @@ def test_small_house_truth():
 
 
 def test_octomap_truth():
-    pytest.importorskip("floorplan_core.readers.registry")
     result = survey("octomap_fr079_3d")
     observed = result.observed
     assert observed.cell == pytest.approx(0.08)

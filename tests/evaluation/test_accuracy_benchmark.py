@@ -1,0 +1,127 @@
+"""The benchmark's book-keeping: balanced halves, honest totals, changes since the last run, failures count."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from evaluation_cases import perfect_plan, truth
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from benchmarks.accuracy import record, runner, store, tables
+from benchmarks.accuracy.__main__ import main
+from benchmarks.accuracy.cases import HALVES, Case, chosen_cases, simulated_cases
+from benchmarks.accuracy.overlay import draw_overlay
+from floorplan_core.config import Config
+from floorplan_core.errors import NoPlanError
+from floorplan_core.evaluation import compare, parse_plan
+from floorplan_core.evaluation.truths import parse_truth
+
+
+def perfect():
+    return parse_plan(perfect_plan(), "plan"), parse_truth(truth(), "truth")
+
+
+def entry(name="a", half=HALVES[1], **values):
+    full = {metric.key: None for metric in record.METRICS}
+    return {"name": name, "half": half, "factors": {}, "error": "", **full, **values}
+
+
+def test_the_halves_are_balanced_and_share_no_seed():
+    cases = simulated_cases()
+    assert len(cases) == 36
+    assert len({c.name for c in cases}) == len({c.spec.seed for c in cases}) == 36
+    for half in HALVES:
+        mine = [dict(c.factors) for c in cases if c.half == half]
+        for factor, levels in (("style", 6), ("sensor", 3), ("explored", 3), ("furniture", 3), ("drift", 3)):
+            counts = Counter(f[factor] for f in mine)
+            assert len(counts) == levels, (half, factor)
+            assert max(counts.values()) <= 2.1 * len(mine) / levels, (half, factor, counts)
+        pairs = {(f["sensor"], f["explored"]) for f in mine}
+        assert len(pairs) >= 6
+
+
+def test_a_name_chooses_surveys_and_an_unknown_one_is_refused(capsys):
+    assert {c.half for c in chosen_cases(False, "ring")} == set(HALVES)
+    assert len(chosen_cases(True, None)) >= 6
+    assert main(["--only", "no such survey"]) == 2
+    assert "no such survey" in capsys.readouterr().out
+
+
+def test_a_perfect_plan_is_the_least_bad_and_an_empty_one_worse_than_any_error():
+    plan, true = perfect()
+    best = record.record(compare(plan, true))
+    lost = record.record(compare(runner.nothing(), true))
+    assert record.badness(best) == pytest.approx(0, abs=1e-9)
+    assert record.badness(lost) > 1.4
+    assert (lost["f1_entered"], lost["iou_entered"], lost["door_recall"]) == (0, 0, 0)
+
+
+def test_totals_mark_missed_targets_and_name_the_worst_survey():
+    records = [
+        entry("good", iou_entered=0.99),
+        entry("bad", iou_entered=0.5),
+        entry("t", HALVES[0], iou_entered=1.0),
+    ]
+    last = [entry("good", iou_entered=0.99), entry("bad", iou_entered=0.7), entry("other", iou_entered=0.0)]
+    _, rows = tables.totals(records, last)
+    row = next(r for r in rows if r[0] == "room IoU, entered")
+    assert row[2:] == ["1.000", "0.745 ✗", "0.500 ✗", "bad", "-0.100 worse"]
+
+
+@pytest.mark.parametrize(
+    ("new", "old", "word"), [(0.02, 0.01, "+0.010 worse"), (0.01, 0.02, "-0.010 better"), (0.01, 0.0101, "=")]
+)
+def test_change_knows_which_way_is_better(new, old, word):
+    metric = next(m for m in record.METRICS if m.key == "dimension_m")
+    assert tables.change(new, old, metric) == word
+    assert tables.change(new, None, metric) == ""
+
+
+def test_a_survey_without_a_plan_scores_zero_and_keeps_its_reason(tmp_path, monkeypatch):
+    import json
+
+    def fail(*_):
+        raise NoPlanError("No Manhattan structure was found.")
+
+    (tmp_path / "truth.json").write_text(json.dumps(truth()))
+    monkeypatch.setattr(runner, "make_plan", fail)
+    found = runner.run_case(Case("broken", "shared", folder=tmp_path), Config())
+    assert found["error"] == "No Manhattan structure was found."
+    assert found["iou_entered"] == 0
+
+
+def test_results_survive_and_the_document_names_everything(tmp_path, monkeypatch):
+    monkeypatch.setattr(store, "RESULTS", tmp_path / "results" / "accuracy.json")
+    monkeypatch.setattr(store, "DOCUMENT", tmp_path / "accuracy.md")
+    assert store.load() == []
+    records = [
+        entry("a", iou_entered=0.123456789, seconds=1.0),
+        entry("b", error="No plan: a sphere.", seconds=1.0),
+    ]
+    store.save(records)
+    assert store.load()[0]["iou_entered"] == 0.123457
+    store.write_document(records, store.load())
+    text = (tmp_path / "accuracy.md").read_text()
+    for word in ("| room IoU, entered |", "| a | held out |", "- b: No plan: a sphere.", "worst-2.png"):
+        assert word in text
+
+
+def test_the_overlay_shows_regions_truth_and_a_missed_room(tmp_path):
+    from PIL import Image
+
+    from benchmarks.accuracy import overlay
+
+    document = perfect_plan()
+    del document["features"][1]
+    true = parse_truth(truth(), "truth")
+    path = tmp_path / "overlay.png"
+    draw_overlay(parse_plan(document, "plan"), true, "title", "remark", path)
+    pixels = np.asarray(Image.open(path).convert("RGB")).reshape(-1, 3)
+    colours = {tuple(int(v) for v in c) for c in np.unique(pixels, axis=0)}
+    for colour in (overlay.FILL["room"], overlay.FILL["corridor"], overlay.LOST, overlay.FOUND, overlay.INK):
+        assert colour in colours
