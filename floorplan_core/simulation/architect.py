@@ -6,10 +6,12 @@ import numpy as np
 
 from floorplan_core.simulation.building import Building, DoorOpening, Space
 from floorplan_core.simulation.circulation import Walls, circulation, mm
-from floorplan_core.simulation.furniture import furnish, make_columns
-from floorplan_core.simulation.openings import make_doors, make_windows
+from floorplan_core.simulation.columns import make_columns
+from floorplan_core.simulation.doors import make_doors
+from floorplan_core.simulation.furniture import furnish
 from floorplan_core.simulation.rooms import make_spaces
 from floorplan_core.simulation.spec import BuildingSpec
+from floorplan_core.simulation.windows import make_windows
 
 
 def make_building(spec: BuildingSpec, rng: np.random.Generator) -> Building:

@@ -90,7 +90,7 @@ def _l(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rec
     total = max(_slots(spec) / 2, 3.5) * spec.room_width
     x = max(total * rng.uniform(0.5, 0.65), west + v + t + 3)
     y = max(total - x, w + t + north + 4)
-    corridors = [(0, 0, x, w), (x - v, 0, x, y)]
+    corridors: list[Rect] = [(0, 0, x, w), (x - v, 0, x, y)]
     return corridors, [
         Strip((0, -t - south, x + t + east, -t), "n"),
         Strip((x + t, 0, x + t + east, y), "w"),

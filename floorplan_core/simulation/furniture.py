@@ -2,104 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.simulation.building import DoorOpening, Furniture, Space, WindowOpening, solid_hulls
+from floorplan_core.simulation.catalogue import INVENTORY, Piece
 from floorplan_core.simulation.circulation import mm
 from floorplan_core.simulation.spec import BuildingSpec
 
 Float = NDArray[np.float64]
-Range = tuple[float, float]
-Builder = Callable[[float, float, float], Float]
-
 DENSITY = {"none": 0.0, "normal": 1.0, "heavy": 2.2}
 PASSAGE = 0.06  # m between two pieces at least
 DOOR_ZONE = 1.0  # m kept clear on both sides of a door
 WALK = 0.75  # m that stays free beside a piece that stands in the open
 TRIES = 12
-
-
-def _box(length: float, depth: float, height: float) -> Float:
-    return np.array([[0, 0, 0, length, depth, height, 0.0]])
-
-
-def _table(length: float, depth: float, height: float) -> Float:
-    """A top on two end panels; local x along the wall, y away from it."""
-    panel, top = 0.03, 0.03
-    return np.array(
-        [
-            [0, 0, height - top, length, depth, height, 0],
-            [0.05, 0.05, 0, 0.05 + panel, depth - 0.05, height - top, 0],
-            [length - 0.05 - panel, 0.05, 0, length - 0.05, depth - 0.05, height - top, 0],
-        ]
-    )
-
-
-def _sofa(length: float, depth: float, height: float) -> Float:
-    return np.array([[0, 0, 0.05, length, depth, 0.42, 0], [0, 0, 0.42, length, 0.22, height, 0.0]])
-
-
-def _kitchen(length: float, depth: float, height: float) -> Float:
-    """Base cabinets and wall cabinets above them."""
-    return np.array([[0, 0, 0, length, depth, 0.9, 0], [0, 0, 1.45, length, 0.35, height, 0.0]])
-
-
-def _board(length: float, depth: float, height: float) -> Float:
-    return np.array([[0, 0, 0.9, length, depth, height, 0.0]])
-
-
-def _basin(length: float, depth: float, height: float) -> Float:
-    return np.array([[0, 0, 0.65, length, depth, height, 0.0]])
-
-
-@dataclass(frozen=True)
-class Piece:
-    """One kind of furniture: ranges of length (along the wall), depth and height in metres."""
-
-    kind: str
-    length: Range
-    depth: Range
-    height: Range
-    build: Builder = _box
-    free: bool = False  # stands in the open as well as against a wall
-    chairs: int = 0
-
-
-DESK = Piece("desk", (1.3, 1.8), (0.7, 0.8), (0.72, 0.76), _table, chairs=1)
-TABLE = Piece("table", (1.6, 3.2), (0.9, 1.2), (0.72, 0.76), _table, free=True, chairs=6)
-CABINET = Piece("cabinet", (0.8, 1.6), (0.4, 0.5), (1.6, 2.0))
-LOCKER = Piece("cabinet", (1.2, 2.8), (0.45, 0.6), (1.9, 2.0))
-SHELF = Piece("shelf", (0.8, 2.0), (0.28, 0.4), (1.5, 2.2))
-DRAWERS = Piece("drawers", (0.4, 1.2), (0.4, 0.55), (0.6, 1.2))
-DIVIDER = Piece("divider", (1.2, 2.4), (0.4, 0.5), (1.5, 2.0), free=True)
-BOARD = Piece("board", (1.2, 2.4), (0.03, 0.05), (1.9, 2.1), _board)
-PLANT = Piece("plant", (0.35, 0.5), (0.35, 0.5), (0.8, 1.6))
-SOFA = Piece("sofa", (1.5, 2.3), (0.8, 0.95), (0.75, 0.9), _sofa)
-BED = Piece("bed", (0.9, 1.8), (1.95, 2.1), (0.45, 0.6))
-KITCHEN = Piece("kitchen", (1.8, 3.6), (0.6, 0.62), (2.1, 2.2), _kitchen)
-TOILET = Piece("toilet", (0.36, 0.4), (0.6, 0.7), (0.4, 0.8))
-BASIN = Piece("basin", (0.5, 0.7), (0.4, 0.5), (0.82, 0.88), _basin)
-BENCH = Piece("bench", (1.0, 1.8), (0.35, 0.42), (0.42, 0.48))
-
-# What a use holds: pieces in order, each with its number per 10 m2 of floor (at least the first).
-INVENTORY: dict[str, tuple[tuple[Piece, float], ...]] = {
-    "office": (
-        (DESK, 1.0), (CABINET, 0.5), (SHELF, 0.5), (DRAWERS, 0.4), (BOARD, 0.3), (PLANT, 0.3), (DIVIDER, 0.15)
-    ),
-    "meeting room": ((TABLE, 0.3), (BOARD, 0.3), (CABINET, 0.25), (PLANT, 0.2), (LOCKER, 0.15), (DESK, 0.3)),
-    "store": ((SHELF, 1.5), (LOCKER, 0.8), (DRAWERS, 0.8)),
-    "bathroom": ((TOILET, 2.0), (BASIN, 2.0)),
-    "closet": ((SHELF, 2.0),),
-    "hall": ((SOFA, 0.4), (PLANT, 0.4), (DRAWERS, 0.3), (LOCKER, 0.15)),
-    "corridor": ((BENCH, 0.06), (PLANT, 0.06), (DRAWERS, 0.08), (LOCKER, 0.05)),
-    "bedroom": ((BED, 0.7), (LOCKER, 0.7), (DRAWERS, 0.6), (DESK, 0.4)),
-    "kitchen": ((KITCHEN, 1.0), (TABLE, 0.4), (CABINET, 0.5)),
-    "living room": ((SOFA, 0.5), (TABLE, 0.25), (SHELF, 0.5), (CABINET, 0.3), (PLANT, 0.4), (DRAWERS, 0.3)),
-}  # fmt: skip
+FREE_AT_WALL = 0.15  # share of free-standing pieces that stand at a wall all the same
+IN_CORNER = 0.35  # share of pieces that are pushed into a corner
+WALL_GAPS = (0.01, 0.02, 0.05)  # m between a piece and its wall
+BACKS = ((1, -1), (1, 1), (0, -1), (0, 1))  # axis and sense of a piece's back
 
 
 @dataclass
@@ -110,28 +32,31 @@ class _Floor:
     blocked: list[tuple[float, ...]]  # door zones, columns, pieces
     windows: list[WindowOpening]
 
-    def fits(self, hull: Float) -> bool:
-        """True where ``hull`` lies in one rectangle of the space and clear of everything."""
-        r = self.space.rects
-        inside = (r[:, :2] <= hull[:2] + 1e-9).all(axis=1) & (r[:, 2:] >= hull[2:] - 1e-9).all(axis=1)
+    def fits(self, hull: Float, margin: float = 0.0, whole: bool = False) -> bool:
+        """True where ``hull`` lies in one rectangle of the space and ``margin`` clear of everything.
+
+        ``whole``: the margin must lie in the rectangle too, not only away from things.
+        """
+        grown = hull + margin * np.array([-1, -1, 1, 1])
+        inner, r = grown if whole else hull, self.space.rects
+        inside = (r[:, :2] <= inner[:2] + 1e-9).all(axis=1) & (r[:, 2:] >= inner[2:] - 1e-9).all(axis=1)
         if not inside.any():
             return False
         taken = np.array(self.blocked).reshape(-1, 4)
-        return not ((taken[:, :2] < hull[2:]) & (taken[:, 2:] > hull[:2])).all(axis=1).any()
+        return not ((taken[:, :2] < grown[2:]) & (taken[:, 2:] > grown[:2])).all(axis=1).any()
 
-    def backed(self, hull: Float, gap: float) -> bool:
-        """True where one whole side of ``hull`` is at most ``gap`` from the boundary of the space.
+    def backed(self, hull: Float, back: int, gap: float) -> bool:
+        """True where the back of ``hull`` is at most ``gap`` from the boundary of the space.
 
         A rectangle of the corridor network may end inside another one: there is no wall to stand at.
         """
-        corners = np.array([[0, 1], [2, 1], [2, 3], [0, 3]])
-        for side, out in enumerate(gap * np.array([[0, -1], [1, 0], [0, 1], [-1, 0]])):
-            ends = hull[np.array([corners[side], corners[(side + 1) % 4]])] + out
-            r = self.space.rects[:, None]
-            inside = (r[..., :2] < ends[None]).all(axis=2) & (r[..., 2:] > ends[None]).all(axis=2)
-            if not inside.any():
-                return True
-        return False
+        axis, sign = BACKS[back]
+        behind = hull.copy()
+        face = hull[axis] if sign < 0 else hull[axis + 2]
+        behind[[axis, axis + 2]] = face + sign * gap
+        r = self.space.rects
+        touches = (r[:, :2] < behind[2:]) & (r[:, 2:] > behind[:2])
+        return not touches.all(axis=1).any()
 
     def shaded(self, hull: Float, height: float) -> bool:
         """True where a piece of this height would stand in front of a window."""
@@ -195,58 +120,52 @@ def _furnish_space(index: int, floor: _Floor, density: float, rng: np.random.Gen
 def _place(index: int, floor: _Floor, piece: Piece, rng: np.random.Generator) -> list[Furniture]:
     """Try some places for one piece; nothing where none fits."""
     for _ in range(TRIES):
-        length, depth, height = (mm(rng.uniform(*r)) for r in (piece.length, piece.depth, piece.height))
         rect = floor.space.rects[rng.integers(len(floor.space.rects))]
-        wall = not piece.free or rng.random() < 0.15
-        solids, gap = _pose(piece, length, depth, height, rect, wall, rng)
-        hull = solid_hulls(solids)
-        flat = np.concatenate([hull[:, :2].min(axis=0), hull[:, 3:5].max(axis=0)])
-        margin = PASSAGE if wall else WALK
-        grown = flat + np.array([-margin, -margin, margin, margin])
-        clipped = np.concatenate([np.maximum(grown[:2], rect[:2]), np.minimum(grown[2:], rect[2:])])
-        if not wall and (grown != clipped).any():
+        at_wall = not piece.free or rng.random() < FREE_AT_WALL
+        back = int(rng.integers(len(BACKS)))
+        solids = _turned(piece, back, rng)
+        solids = solids + _shift(_flat_hull(solids)[2:], rect, back if at_wall else None, piece, rng)
+        hull = _flat_hull(solids)
+        if not floor.fits(hull, PASSAGE if at_wall else WALK, whole=not at_wall):
             continue
-        if (flat[:2] < rect[:2] + gap).any() or (flat[2:] > rect[2:] - gap).any() or not floor.fits(clipped):
+        if at_wall and (floor.shaded(hull, solids[:, 5].max()) or not floor.backed(hull, back, 2 * PASSAGE)):
             continue
-        if wall and (floor.shaded(flat, height) or not floor.backed(flat, 2 * PASSAGE)):
-            continue
-        floor.blocked.append(tuple(flat))
-        return [Furniture(piece.kind, index, solids), *_chairs(index, floor, piece, flat, rng)]
+        floor.blocked.append(tuple(hull))
+        return [Furniture(piece.kind, index, solids), *_chairs(index, floor, piece, hull, rng)]
     return []
 
 
-def _pose(
-    piece: Piece,
-    length: float,
-    depth: float,
-    height: float,
-    rect: Float,
-    wall: bool,
-    rng: np.random.Generator,
-) -> tuple[Float, float]:
-    """The piece's solids against a wall of ``rect`` or in the open, and the gap it keeps to the walls."""
-    side = int(rng.integers(4))
+def _flat_hull(solids: Float) -> Float:
+    """(4,) x0, y0, x1, y1 of all solids together."""
+    hull = solid_hulls(solids)
+    return np.concatenate([hull[:, :2].min(axis=0), hull[:, 3:5].max(axis=0)])
+
+
+def _turned(piece: Piece, back: int, rng: np.random.Generator) -> Float:
+    """(K, 7) a piece of random size at the origin, its back to the side ``back``."""
+    length, depth, height = (mm(rng.uniform(*r)) for r in (piece.length, piece.depth, piece.height))
     if piece.kind == "bed" and rng.random() < 0.5:
-        length, depth = depth, length  # along the wall
+        length, depth = depth, length  # its long side at the wall
     solids = piece.build(length, depth, height)
-    if side >= 2:  # along y
+    axis, sign = BACKS[back]
+    if axis == 0:  # along y
         solids = solids[:, [1, 0, 2, 4, 3, 5, 6]]
-    size = np.array([length, depth] if side < 2 else [depth, length])
-    if side % 2:  # its back to the other side
-        axis = 1 if side < 2 else 0
-        solids = solids.copy()
-        solids[:, [axis, axis + 3]] = size[axis] - solids[:, [axis + 3, axis]]
-    gap = 0.0 if piece.kind in ("board", "kitchen") else float(rng.choice([0.01, 0.02, 0.05]))
-    room = rect[2:] - rect[:2] - size
-    at = rect[:2] + rng.uniform(0, 1, 2) * np.maximum(room, 0)
-    if wall:
-        axis = 1 if side < 2 else 0
-        at[axis] = rect[axis] + gap if side % 2 == 0 else rect[axis + 2] - size[axis] - gap
-        if rng.random() < 0.35:  # in a corner
+    if sign > 0:  # its back to the far side
+        solids[:, [axis, axis + 3]] = depth - solids[:, [axis + 3, axis]]
+    return solids
+
+
+def _shift(size: Float, rect: Float, back: int | None, piece: Piece, rng: np.random.Generator) -> Float:
+    """(7,) to add to solids at the origin: anywhere in ``rect``, at the wall ``back`` where given."""
+    gap = 0.0 if piece.flush else float(rng.choice(WALL_GAPS))
+    at = rect[:2] + rng.uniform(0, 1, 2) * np.maximum(rect[2:] - rect[:2] - size, 0)
+    if back is not None:
+        axis, sign = BACKS[back]
+        at[axis] = rect[axis] + gap if sign < 0 else rect[axis + 2] - size[axis] - gap
+        if rng.random() < IN_CORNER:
             at[1 - axis] = rect[1 - axis] + gap
-    at = np.round(at, 3)
-    moved = solids + np.array([at[0], at[1], 0, at[0], at[1], 0, 0])
-    return moved, 0.0 if wall else PASSAGE
+    x, y = np.round(at, 3)
+    return np.array([x, y, 0, x, y, 0, 0])
 
 
 def _chairs(
@@ -281,37 +200,3 @@ def _chair(at: Float, yaw: float) -> Float:
             [at[0] - 0.04, at[1] - 0.04, 0.0, at[0] + 0.04, at[1] + 0.04, 0.42, yaw],
         ]
     )
-
-
-def make_columns(
-    spaces: tuple[Space, ...],
-    doors: tuple[DoorOpening, ...],
-    spec: BuildingSpec,
-    rng: np.random.Generator,
-) -> Float:
-    """(K, 4) columns: on a line through large rooms, and half out of the walls of others."""
-    zones = np.array([z for d in doors for z in door_zones(d)]).reshape(-1, 4)
-    found = []
-    for space in spaces:
-        for rect in space.rects:
-            size = mm(rng.uniform(0.3, 0.45))
-            for at in _column_places(space, rect, size, rng):
-                column = np.array([*at, *(at + size)])
-                clear = not ((zones[:, :2] < column[2:]) & (zones[:, 2:] > column[:2])).all(axis=1).any()
-                if clear and rng.random() < spec.columns:
-                    found.append(column)
-    return np.round(np.array(found).reshape(-1, 4), 3)
-
-
-def _column_places(space: Space, rect: Float, size: float, rng: np.random.Generator) -> list[Float]:
-    """Lower left corners: every 4 to 6 m along the middle of a large room, else now and then in a corner."""
-    extent = rect[2:] - rect[:2]
-    long = int(np.argmax(extent))
-    if space.kind == "room" and extent.min() > 4.5 and extent.prod() > 32:
-        count = int(extent[long] / rng.uniform(4, 6))
-        middles = np.tile((rect[:2] + rect[2:]) / 2 - size / 2, (count, 1))
-        middles[:, long] = rect[long] + extent[long] * (np.arange(count) + 0.5) / count - size / 2
-        return list(middles)
-    if space.kind == "room" and extent.min() > 3.5 and rng.random() < 0.3:
-        return [np.array([rect[0], rect[1]])]  # in a corner: its two faces stand out
-    return []

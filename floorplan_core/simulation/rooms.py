@@ -15,6 +15,7 @@ Float = NDArray[np.float64]
 
 MIN_ROOM = 2.2  # m, narrowest room of a strip
 WEIGHTS = (0.6, 0.75, 0.9, 1.0, 1.0, 1.15, 1.4, 1.9)  # relative widths of the rooms of a strip
+ROOMS_A_LOBBY = 15  # a building has one lobby, and one more for so many rooms
 SMALL, LARGE = 8.0, 28.0  # m2: below a store or washroom, above a meeting room
 
 
@@ -55,7 +56,8 @@ def make_spaces(
         return tuple(_flat_rooms(spaces, slots, spec, walls.interior, rng))
     for slot in slots:
         if rng.random() < spec.halls and min(slot.size) > 3.0:
-            _add_hall(spaces, slot, walls.interior, rng)
+            lobbies = len(spaces[0].rects) - len(plan.corridors)
+            _add_hall(spaces, slot, walls.interior, lobbies <= spec.rooms // ROOMS_A_LOBBY, rng)
         else:
             spaces += _rooms(slot, len(spaces), spec, walls.interior, rng)
     return tuple(spaces)
@@ -124,14 +126,14 @@ def _suite(slot: Slot, index: int, t: float, rng: np.random.Generator) -> list[S
     ]
 
 
-def _add_hall(spaces: list[Space], slot: Slot, t: float, rng: np.random.Generator) -> None:
+def _add_hall(spaces: list[Space], slot: Slot, t: float, lobby: bool, rng: np.random.Generator) -> None:
     """A lobby becomes part of the corridor; a hall is a room behind a wide opening."""
     width, depth = slot.size
     open_rect = slot.plan(0, -t, width, depth)
     x0, y0, x1, y1 = slot.plan(0, -2 * t, width, -t)
     ways = spaces[0].rects
     faces = (ways[:, 0] <= x0) & (ways[:, 1] <= y0) & (ways[:, 2] >= x1) & (ways[:, 3] >= y1)
-    if rng.random() < 0.5 or not faces.any():
+    if rng.random() < 0.5 or not (lobby and faces.any()):
         spaces.append(_room(slot, use="hall"))
         return
     spaces[0] = replace(spaces[0], rects=np.vstack([spaces[0].rects, open_rect]))
