@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import io
 import json
+import struct
 import zipfile
 import zlib
 from pathlib import Path
@@ -31,6 +32,18 @@ COMPRESSION_LEVEL = 1  # the grids shrink by 20; higher levels cost ten times as
 MAX_MEMBER_BYTES = 8 * 2**30  # no plan comes near; a larger member is a bomb
 MAX_TREE_BYTES = 2**29
 
+_DAMAGE = (  # what zipfile, zlib, json and numpy raise for bytes that are not theirs
+    ValueError,
+    KeyError,
+    EOFError,
+    OverflowError,
+    NotImplementedError,
+    RecursionError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
 T = TypeVar("T")
 
 
@@ -45,15 +58,7 @@ def load(path: Path, expected: type[T]) -> T:
         value = loads(path.read_bytes())
     except OSError as error:
         raise InputError(f"Cannot read {path.name}: {(error.strerror or str(error)).lower()}.") from error
-    except (
-        Malformed,
-        ValueError,
-        KeyError,
-        zipfile.BadZipFile,
-        zlib.error,
-        EOFError,
-        RecursionError,
-    ) as error:
+    except (Malformed, *_DAMAGE) as error:
         raise InputError(f"{path.name} is not an undamaged Floorcast file ({_why(error)}).") from error
     if not isinstance(value, expected):
         raise InputError(
@@ -86,7 +91,7 @@ def _npy(array: NDArray[Any]) -> bytes:
 
 
 def loads(data: bytes) -> object:
-    """The value in the bytes of a file; raises :class:`Malformed`, ValueError and zipfile's and zlib's errors."""
+    """The value in the bytes of a file; raises :class:`Malformed` and what the libraries raise."""
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         tree = json.loads(_member(archive, TREE, MAX_TREE_BYTES))
         if not isinstance(tree, dict) or tree.get("format") != FORMAT:

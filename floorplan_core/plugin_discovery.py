@@ -26,9 +26,9 @@ FOLDER_VARIABLE = "FLOORCAST_PLUGINS"
 
 Source = tuple[str, str, Callable[[], Any]]  # name, origin, how to import it
 _KINDS = {
-    "floorcast_readers": ("reader", Reader),
-    "floorcast_exporters": ("exporter", Exporter),
-    "floorcast_classifiers": ("classifier", RegionClassifier),
+    "floorcast_readers": ("a reader", Reader),
+    "floorcast_exporters": ("an exporter", Exporter),
+    "floorcast_classifiers": ("a classifier", RegionClassifier),
 }
 
 
@@ -75,7 +75,7 @@ def _ask(plugin: Any, status: PluginStatus) -> list[Any]:
     for hook, (kind, protocol) in _KINDS.items():
         for thing in (t for result in getattr(manager.hook, hook)() for t in result):
             _check(thing, kind, protocol)
-            status.brings.append(f"{kind} {thing.name}")
+            status.brings.append(f"{kind.split()[-1]} {thing.name}")
             things.append(thing)
     if not manager.get_hookcallers(plugin):
         raise TypeError("it has none of the hooks " + ", ".join(_KINDS))
@@ -84,7 +84,7 @@ def _ask(plugin: Any, status: PluginStatus) -> list[Any]:
 
 def _check(thing: Any, kind: str, protocol: Any) -> None:
     if isinstance(thing, type) or not isinstance(thing, protocol):
-        raise TypeError(f"{thing!r} is not a {kind}: it lacks a name, a description or a method")
+        raise TypeError(f"{thing!r} is not {kind}: it lacks a name, a description or a method")
 
 
 def _shipped() -> list[Source]:

@@ -7,7 +7,7 @@ Errors that a plugin raises on purpose (:class:`FloorPlanError`) and those of th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from floorplan_core.config import Config
     from floorplan_core.model import FloorPlan, PointChunk, Reconstruction, Region
     from floorplan_core.observer import Observer
+
+
+class PluginFailed(OutputError):
+    """An exporter or classifier of a plugin raised something that is no error on purpose."""
 
 
 def guarded(thing: Reader | Exporter | RegionClassifier, status: PluginStatus) -> Any:
@@ -79,7 +83,7 @@ class GuardedReader:
 
 
 class GuardedExporter:
-    """An exporter whose exceptions become :class:`OutputError`."""
+    """An exporter whose exceptions become :class:`PluginFailed`."""
 
     def __init__(self, inner: Exporter, status: PluginStatus) -> None:
         self._inner, self._status = inner, status
@@ -87,23 +91,31 @@ class GuardedExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the plan; a file that was promised and not written is a failure too."""
-        with _failures(self._status, f"writing {path.name}", OutputError):
+        with _failures(self._status, f"writing {path.name}", PluginFailed):
             self._inner.write(plan, path)
             if not path.exists():
                 raise RuntimeError("it wrote no file")
 
 
 class GuardedClassifier:
-    """A classifier whose exceptions become :class:`FloorPlanError`."""
+    """A classifier; once it has failed, the paper's classifier takes its place, so that there is still a plan."""
 
     def __init__(self, inner: RegionClassifier, status: PluginStatus) -> None:
         self._inner, self._status = inner, status
         self.name, self.description = inner.name, inner.description
 
     def classify(self, region: Region, plan: Sequence[Region], config: Config) -> str:
-        """The classifier's word."""
+        """The classifier's word, or the paper's."""
+        if self._status.enabled:
+            with suppress(PluginFailed):
+                return self._ask(region, plan, config)
+        from floorplan_core.stages.labels import PaperClassifier
+
+        return PaperClassifier().classify(region, plan, config)
+
+    def _ask(self, region: Region, plan: Sequence[Region], config: Config) -> str:
         label = ""
-        with _failures(self._status, f"labelling region {region.name}", FloorPlanError):
+        with _failures(self._status, f"labelling region {region.name}", PluginFailed):
             label = self._inner.classify(region, plan, config)
             if not isinstance(label, str) or not label:
                 raise TypeError(f"it gave {label!r} where a word is wanted")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from importlib.util import find_spec
 from typing import Annotated
 
 import typer
 
-from floorplan_core.cli import evaluate, export, gui, plan, plugins, settings, watch
+from floorplan_core.cli import evaluate, export, gui, plan, plugins, settings, simulate, watch
 
 app = typer.Typer(
     name="floorcast",
@@ -43,8 +41,7 @@ app.command()(plan.plan)
 app.command()(watch.watch)
 app.command()(evaluate.evaluate)
 app.command()(export.export)
-if find_spec("floorplan_core.cli.simulate"):
-    app.command()(import_module("floorplan_core.cli.simulate").simulate)
+app.command()(simulate.simulate)
 app.command()(settings.settings)
 app.command()(plugins.plugins)
 app.command()(gui.gui)

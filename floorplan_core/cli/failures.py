@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import errno
 
+from floorplan_core.cli.signals import Terminated
 from floorplan_core.errors import FloorPlanError
 
 DONE, WRONG_USE, UNREADABLE, NO_PLAN, INTERRUPTED = 0, 2, 3, 4, 130
+TERMINATED = 143  # 128 + SIGTERM, as shells count it
 DISK_PROBLEMS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO}
 
 
@@ -14,6 +16,8 @@ def explain(error: BaseException) -> tuple[str, int]:
     """The sentence and the exit status for ``error``."""
     if isinstance(error, FloorPlanError):
         return str(error), error.exit_status
+    if isinstance(error, Terminated):
+        return "Terminated; nothing was left half-written.", TERMINATED
     if isinstance(error, KeyboardInterrupt):
         return "Interrupted; nothing was left half-written.", INTERRUPTED
     if isinstance(error, MemoryError):

@@ -30,7 +30,7 @@ def run(arguments: list[str]) -> int:
             return _invoke(arguments, token)
     except BrokenPipeError:
         return _reader_has_gone()
-    except SystemExit as stop:  # SIGTERM, or a library that gives up
+    except SystemExit as stop:  # a library gives up
         return stop.code if isinstance(stop.code, int) else 1
     except BaseException as error:  # noqa: BLE001 - the last line of defence: nobody ever sees a traceback
         return _report(error, arguments)

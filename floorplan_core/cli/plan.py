@@ -56,7 +56,7 @@ def plan(
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
         made, clock = make_plan(survey, trajectory, settings, observer)
         names = DRAWINGS + (PICTURES if pictures else ())
-        clock["export"] = write_plan(made, staging, names)
+        clock["export"] = write_plan(made, staging, names, observer)
         if save_stages:
             _save_stages(observer, staging / STAGE_FOLDER)
         clock["total"] = perf_counter() - started
@@ -77,11 +77,11 @@ def make_plan(
     survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver
 ) -> tuple[FloorPlan, dict[str, float]]:
     """Read ``survey`` and run the pipeline; returns the plan and the seconds spent in reading."""
-    from floorplan_core.pipeline import process
-
     started = perf_counter()
     reconstruction = open_input(survey, trajectory, config, observer)
     clock = {"read": perf_counter() - started}
+    from floorplan_core.pipeline import process  # after opening: bad input is answered at once
+
     return process(timed_chunks(reconstruction, clock), config, observer), clock
 
 
@@ -118,19 +118,38 @@ def timed_chunks(reconstruction: Reconstruction, clock: dict[str, float]) -> Rec
     return replace(reconstruction, chunks=chunks)
 
 
-def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...]) -> float:
+def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: CommandObserver) -> float:
     """Write ``plan`` losslessly and with the exporter for each of ``names``; returns the seconds it took."""
     from floorplan_core import intermediates
     from floorplan_core.files import writing
-    from floorplan_core.plugins import default_registry
 
     started = perf_counter()
-    for name in names:
-        with writing(folder.parent / name):
-            default_registry().exporter(Path(name)).write(plan, folder / name)
+    observer.stage_started("export", len(names) + 1)
     with writing(folder.parent / PLAN_FILE):
         intermediates.save(plan, folder / PLAN_FILE)
-    return perf_counter() - started
+    for done, name in enumerate(names, start=1):
+        observer.check_cancelled()
+        observer.progress("export", done)
+        _export(plan, folder / name, observer)
+    seconds = perf_counter() - started
+    observer.stage_finished("export", seconds)
+    return seconds
+
+
+def _export(plan: FloorPlan, path: Path, observer: CommandObserver) -> None:
+    """Write one file; a picture whose plugin fails is left out with a warning, the drawings are a must."""
+    from floorplan_core.files import writing
+    from floorplan_core.plugin_guard import PluginFailed
+    from floorplan_core.plugins import default_registry
+
+    try:
+        with writing(path.parent.parent / path.name):
+            default_registry().exporter(Path(path.name)).write(plan, path)
+    except PluginFailed as error:
+        if path.name in DRAWINGS:
+            raise
+        path.unlink(missing_ok=True)
+        observer.warning(str(error))
 
 
 def _save_stages(observer: CommandObserver, folder: Path) -> None:

@@ -15,7 +15,9 @@ from types import FrameType
 
 from floorplan_core.observer import CancelToken
 
-TERMINATED = 143  # 128 + SIGTERM, as shells count it
+
+class Terminated(KeyboardInterrupt):
+    """SIGTERM; a kind of Ctrl-C, so that nothing that lets Ctrl-C through can swallow it."""
 
 
 @contextmanager
@@ -28,7 +30,7 @@ def interrupts_cancel() -> Iterator[CancelToken]:
     before = {s: signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)}
     try:
         signal.signal(signal.SIGINT, partial(_unwind, token, KeyboardInterrupt()))
-        signal.signal(signal.SIGTERM, partial(_unwind, token, SystemExit(TERMINATED)))
+        signal.signal(signal.SIGTERM, partial(_unwind, token, Terminated()))
         yield token
     finally:
         for number, handler in before.items():

@@ -55,16 +55,14 @@ def watch(
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
-    with output_folder(out):  # fails now rather than after the first interval
-        pass
-    with console.observer() as observer:
+    with output_folder(out), console.observer() as observer:  # fails now, not after the first interval
         run = open_input(survey, trajectory, settings, observer)
         film = Film()
         timeline = replay(run, FloorPlanner(settings, observer), every, out, film, observer)
-    plans = [entry for entry in timeline if entry["plan"]]
-    if not plans:
-        raise NoPlanError(_never(timeline, run))
-    film.write(out / FILM_STRIP)
+        plans = [entry for entry in timeline if entry["plan"]]
+        if not plans:
+            raise NoPlanError(_never(timeline, run))
+        film.write(out / FILM_STRIP)
     data = {"out": str(out), "plans": len(plans), "intervals": len(timeline), "timeline": timeline}
     console.result(data, f"Wrote {len(plans)} plans, {TIMELINE} and {FILM_STRIP} into {out}.")
 
