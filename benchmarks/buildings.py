@@ -1,8 +1,9 @@
 """Generated buildings as the set cover sees them: layout planes, blockers and a partly observed grid.
 
-Blocks of double-loaded corridors between cross corridors: rooms of jittered width and depth on both sides, each
-with a door, some furniture, and seen in full, from its door only, or not at all. Planes of one facing closer than
-``MERGE`` are one plane, as the minimum set of layout planes has it; what was not seen gives no plane and no blocker.
+Blocks of double-loaded corridors between cross corridors: rooms of jittered width and depth on both sides,
+each with a door, some furniture, and seen in full, from its door only, or not at all. Planes of one facing
+closer than ``MERGE`` are one plane, as the minimum set of layout planes has it; what was not seen gives no
+plane and no blocker.
 """
 
 from __future__ import annotations
@@ -165,7 +166,7 @@ def merge(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def with_planes(layout: Layout, count: int, rng: np.random.Generator) -> Layout:
-    """The same building with exactly ``count`` planes a facing: some left out, or some more at random offsets."""
+    """The same building with exactly ``count`` planes a facing: fewer, or more at random offsets."""
     x0, y0, x1, y1 = layout.grid.extent
     planes = []
     for offsets, (low, high) in zip(layout.planes, [(x0, x1), (x0, x1), (y0, y1), (y0, y1)], strict=True):

@@ -40,6 +40,8 @@ def run_case(case: Case, config: Config) -> Record:
         raise
     except FloorPlanError as failure:
         plan, error = nothing(), str(failure)
+    except Exception as failure:  # noqa: BLE001  a bug costs this survey, not the whole run; it is printed and kept
+        plan, error = nothing(), f"{type(failure).__name__}: {failure}"
     seconds = time.perf_counter() - started
     head = {
         "name": case.name,

@@ -14,7 +14,7 @@ Int = NDArray[np.int64]
 
 
 def summed_area(mask: NDArray[np.bool_]) -> Int:
-    """(ny + 1, nx + 1) table of an (ny, nx) mask: ``table[r, c]`` marked cells lie in rows < r and columns < c.
+    """(ny + 1, nx + 1) table of an (ny, nx) mask: ``table[r, c]`` cells are marked in rows < r, columns < c.
 
     >>> summed_area(np.array([[True, False], [True, True]])).tolist()
     [[0, 0, 0], [0, 1, 1], [0, 2, 3]]
@@ -26,7 +26,7 @@ def summed_area(mask: NDArray[np.bool_]) -> Int:
 
 
 def count(table: Int, rows: tuple[int, int], columns: tuple[int, int]) -> int:
-    """Marked cells in rows [r0, r1) and columns [c0, c1); both may reach beyond the grid, where nothing is marked."""
+    """Marked cells in rows [r0, r1) and columns [c0, c1); nothing is marked beyond the grid."""
     r0, r1 = np.clip(rows, 0, table.shape[0] - 1)
     c0, c1 = np.clip(columns, 0, table.shape[1] - 1)
     if r1 <= r0 or c1 <= c0:
@@ -35,10 +35,10 @@ def count(table: Int, rows: tuple[int, int], columns: tuple[int, int]) -> int:
 
 
 def first_cells(offsets: Float, origin: float, cell: float) -> Int:
-    """(P,) index of the first cell of an unbounded row whose centre is >= each offset (metres).
+    """(P,) first cell of an unbounded row of cells whose centre is >= each offset (metres).
 
-    Cells ``first_cells(a) .. first_cells(b) - 1`` are those with a centre in [a, b). The centre of cell ``i`` is
-    the float ``origin + cell * (i + 0.5)``; the division below may round across it, hence the two corrections.
+    Cells ``first_cells(a) .. first_cells(b) - 1`` are those with a centre in [a, b). The centre of cell ``i``
+    is the float ``origin + cell * (i + 0.5)``; the division may round across it, hence the two corrections.
     """
     offsets = np.asarray(offsets, dtype=np.float64)
     index = np.ceil((offsets - origin) / cell - 0.5).astype(np.int64)

@@ -13,9 +13,9 @@ x0, y0, x1, y1 of two such pairs is *valid* when
 
 Cost. Blocking is monotone: of the four comparisons each involves one side only, so that blocker b is four
 integers (qx, kx, qy, ky) and blocks (i0, i1, j0, j1) iff ``i0 < qx and i1 >= kx and j0 < qy and j1 >= ky``.
-For one i0, let i1 grow: blockers only join, and the number ``limit[j0]`` of the y_minus that j0 may pair with only
-falls. Every j0 whose range of j1 is empty, or can hold no free cells any more, leaves the sweep for good;
-when none is left the sweep of this i0 ends. What is visited is in essence what is returned.
+For one i0, let i1 grow: blockers only join, and the number ``limit[j0]`` of the y_minus that j0 may pair with
+only falls. Every j0 whose range of j1 is empty, or can hold no free cells any more, leaves the sweep for
+good; when none is left the sweep of this i0 ends. What is visited is in essence what is returned.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ def enumerate_candidates(
 ) -> CandidateSet:
     """All valid rectangles between the given layout planes, ordered by (i0, i1, j0, j1).
 
-    :param x_plus: (P,) sorted offsets of east-facing planes; x_minus, y_plus, y_minus: west, north, south. Metres.
+    :param x_plus: (P,) sorted offsets of east-facing planes, metres; x_minus, y_plus, y_minus: of west-,
+        north- and south-facing ones.
     :param blockers: (B, 4) x0, y0, x1, y1 of walls and doors, metres, manhattan frame; may be lines.
     :param grid: gives the universe of free cells.
     :return: the valid rectangles; ``enumerated`` is |X+| |X-| |Y+| |Y-|, the size of the paper's R.
@@ -72,7 +73,7 @@ def enumerate_candidates(
     _sweep(*first, blocked, tables, config.max_ratio, index, cells)
     enumerated = int(np.prod([len(p) for p in planes], dtype=object))
     total, free = np.ascontiguousarray(cells[:, 0]), np.ascontiguousarray(cells[:, 1])
-    return CandidateSet(*planes, index, total, free, enumerated)
+    return CandidateSet(planes[0], planes[1], planes[2], planes[3], index, total, free, enumerated)
 
 
 def _room_for(size: int) -> tuple[Index, Int]:
@@ -84,15 +85,16 @@ def _too_many(size: int, planes: list[Float], allowed: int) -> str:
     """The sentence for a plan with too many valid rectangles."""
     counts = ", ".join(str(len(p)) for p in planes)
     return (
-        f"{size} rectangles fit between the {counts} planes that face east, west, north and south, more than the "
-        f"{allowed} of candidates.max_count; raise planes.min_support or lower candidates.max_ratio."
+        f"{size} rectangles fit between the {counts} planes that face east, west, north and south, more than "
+        f"the {allowed} of candidates.max_count; raise planes.min_support or lower candidates.max_ratio."
     )
 
 
 def _first_partner(plus: Float, minus: Float, min_side: float) -> Int:
     """(P,) for every plus plane the index of the first minus plane at least ``min_side`` beyond it.
 
-    Searched with the very expression ``minus - plus >= min_side``: rounding is monotone, so partners are a suffix.
+    Searched with the very expression ``minus - plus >= min_side``: rounding is monotone, so that the partners
+    are all planes from there on.
     """
     return np.array([np.searchsorted(minus - p, min_side, side="left") for p in plus], dtype=np.int64)
 
@@ -117,9 +119,9 @@ def _index_blockers(planes: list[Float], blockers: Float, tolerance: float) -> I
 
 
 def _cell_tables(planes: list[Float], grid: OccupancyGrid) -> Tables:
-    """First cells of the x planes and the y planes (plus planes, then minus), and free cells below each crossing.
+    """First cells of the x and of the y planes (plus, then minus), and the free cells below each crossing.
 
-    The third array is the summed-area table sampled at the planes, [x plane, y plane]: small enough for the cache.
+    The last is the summed-area table sampled at the planes, [x plane, y plane]: small enough for the cache.
     """
     ny, nx = grid.universe.shape
     columns = first_cells(np.concatenate(planes[:2]), float(grid.origin[0]), grid.cell)
@@ -160,7 +162,7 @@ def _sweep(
 
 @_kernel
 def _drop_passed(blockers: Int, n: int, i0: int) -> int:
-    """Keep the blockers right of plane i0 (i0 < qx), in their order; the others matter to no later i0 either."""
+    """Keep the blockers right of plane i0 (i0 < qx), in order; the others matter to no later i0 either."""
     kept = 0
     for b in range(n):
         if blockers[b, 0] > i0:
@@ -171,7 +173,7 @@ def _drop_passed(blockers: Int, n: int, i0: int) -> int:
 
 @_kernel
 def _lower_limits(limit: Int, q: int, k: int) -> None:
-    """Every j0 < q pairs with j1 < k only. ``limit`` never decreases along j0, so the walk down may stop early."""
+    """Every j0 < q pairs with j1 < k only; ``limit`` never decreases along j0, so the walk may stop."""
     j = q - 1
     while j >= 0 and limit[j] > k:
         limit[j] = k
@@ -181,12 +183,12 @@ def _lower_limits(limit: Int, q: int, k: int) -> None:
 @_kernel
 def _free(table: Int, a: int, b: int, c: int, d: int) -> int:
     """Free cells between the x planes a, b and the y planes c, d (rows and columns of the sampled table)."""
-    return table[b, d] - table[a, d] - table[b, c] + table[a, c]
+    return int(table[b, d] - table[a, d] - table[b, c] + table[a, c])
 
 
 @_kernel
 def _first_seen(table: Int, a: int, b: int, c: int, d: int) -> int:
-    """First x plane from b on whose rectangle a, ., c, d holds a free cell; len(table) where there is none."""
+    """First x plane from b on whose rectangle a, ., c, d holds a free cell; len(table) if there is none."""
     end = len(table)
     while b < end:
         middle = (b + end) // 2
@@ -208,7 +210,7 @@ def _keep_alive(
     tables: Tables,
     ratio: float,
 ) -> int:
-    """Take out every j0 that has no rectangle at this or any later i1; ``wake`` is when it next holds free cells."""
+    """Take out every j0 without a rectangle from i1 on; others sleep until ``wake`` sees free cells."""
     columns, rows, table = tables
     _, _, a, b = x_pair
     m_plus, kept = len(first_j1), 0

@@ -1,14 +1,16 @@
-"""The greedy choice of the weighted set cover, made lazily: kernels of :mod:`floorplan_core.stages.set_cover`.
+"""The greedy choice of the weighted set cover, made lazily (for :mod:`floorplan_core.stages.set_cover`).
 
-Rectangles are [a, b) x [c, d) of compressed cells, ``weights`` the free cells in each. The result is exactly that
-of the plain algorithm (least A / |R & D|, then larger A, then smaller index); four observations make it fast.
+Rectangles are [a, b) x [c, d) of compressed cells, ``weights`` the free cells in each. The result is exactly
+that of the plain algorithm (least A / |R & D|, then larger A, then smaller index); four observations make it
+fast.
 
 1. Ratios are compared as integers, A_1 d_2 < A_2 d_1.
-2. |R & D| only ever falls, so a ratio computed earlier is a lower bound: when the first rectangle of a heap is
-   counted again and has not changed, it is the greedy choice.
+2. |R & D| only ever falls, so a ratio computed earlier is a lower bound: when the first rectangle of a heap
+   is counted again and has not changed, it is the greedy choice.
 3. A rectangle waits behind a neighbour that must be preferred (:func:`_hide`): most never enter the heap.
-4. Rectangles that no chain of overlaps connects do not influence each other. Each such component is covered on
-   its own; keys of successive choices only grow, so sorting all choices by key gives the order of the whole.
+4. Rectangles that no chain of overlaps connects do not influence each other. Each such component is covered
+   on its own; keys of successive choices only grow, so sorting all choices by key gives the order of the
+   whole.
 """
 
 from __future__ import annotations
@@ -27,20 +29,21 @@ def lazy_greedy(spans: Index, codes: Int, steps: Int, total: Int, weights: Int) 
     """Rows chosen, in order, and the cells that each newly covered.
 
     :param spans: (K, 4) a, b, c, d.
-    :param codes: (K,) increasing; ``codes + step`` is the code of the neighbour one plane further out on a side.
+    :param codes: (K,) increasing; ``codes + step``: the neighbour one plane further out on a side.
     :param steps: (4,) the step of each side.
     :param total: (K,) weight A of each.
     :param weights: (nx', ny') free cells.
     """
-    labels, missing = _components(spans, weights)
+    labels, missing = components(spans, weights)
     order = np.argsort(labels, kind="stable")
     starts = np.searchsorted(labels[order], np.arange(len(missing) + 1))
     chosen, gained = _cover_all(spans[order], codes[order], steps, total[order], weights, starts, missing)
-    return _by_key(order[chosen], gained, total)
+    rows, cells = _by_key(order[chosen], gained, total)
+    return rows, cells
 
 
 @_kernel
-def _components(spans: Index, weights: Int) -> tuple[Int, Int]:
+def components(spans: Index, weights: Int) -> tuple[Int, Int]:
     """(K,) component of each rectangle, -1 where it is empty; (n,) free cells to cover in each component."""
     covered = _depth(spans, weights.shape, 0, 0)
     right, above = _depth(spans, weights.shape, 1, 0), _depth(spans, weights.shape, 0, 1)
@@ -152,9 +155,10 @@ def _cover_component(
 def _hide(codes: Int, steps: Int, total: Int, gain: Int) -> tuple[Int, Int, Int, int]:
     """Hide every rectangle behind a neighbour that the greedy choice must prefer; heap of those left.
 
-    A neighbour differs by one plane on one side. R hides behind S where S precedes R at the start and holds all free
-    cells of R: then while |S & D| is what it was so is |R & D|, and S still precedes; once S is chosen, or
-    empty, nothing is left of R. Only when |S & D| is found to have fallen does R have to be looked at.
+    A neighbour differs by one plane on one side. R hides behind S where S precedes R at the start and holds
+    all free cells of R: then while |S & D| is what it was so is |R & D|, and S still precedes; once S is
+    chosen, or empty, nothing is left of R. Only when |S & D| is found to have fallen does R have to be
+    looked at.
     """
     parent = np.full(len(codes), -1, np.int64)
     for step in steps:
@@ -248,9 +252,9 @@ def _precedes(k: int, m: int, total: Int, gain: Int) -> bool:
     """True where the greedy choice prefers rectangle k to m: smaller ratio, larger A, smaller index."""
     left, right = total[k] * gain[m], total[m] * gain[k]
     if left != right:
-        return left < right
+        return bool(left < right)
     if total[k] != total[m]:
-        return total[k] > total[m]
+        return bool(total[k] > total[m])
     return k < m
 
 

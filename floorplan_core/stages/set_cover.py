@@ -1,9 +1,9 @@
 """Weighted set cover of the free space (section "Layout Estimation"), greedily as in the paper.
 
-Universe: the cells of F_h that at least one candidate holds. Weight of rectangle R_i: A_i, all of its cells. With
-D the cells not yet covered, the greedy choice minimises A_i / |R_i & D|; ties go to the larger A_i, then to the
-rectangle that comes first by (i0, i1, j0, j1). It ends when D is empty; its weight is within a factor
-H(d*) = O(log d*) of the optimum, d* being the free cells of the largest rectangle (Chvatal 1979).
+Universe: the cells of F_h that at least one candidate holds. Weight of rectangle R_i: A_i, all of its cells.
+With D the cells not yet covered, the greedy choice minimises A_i / |R_i & D|; ties go to the larger A_i,
+then to the rectangle that comes first by (i0, i1, j0, j1). It ends when D is empty; its weight is within a
+factor H(d*) = O(log d*) of the optimum, d* being the free cells of the largest rectangle (Chvatal 1979).
 
 How the choice stays exact and fast is told in :mod:`floorplan_core.stages.lazy_greedy`.
 """
@@ -81,9 +81,10 @@ def _slots(
 
 
 def _neighbours(candidates: CandidateSet) -> tuple[Int, Int]:
-    """(K,) one number for each (i0, i1, j0, j1), in the same order, and what to add for one plane further out.
+    """(K,) one number for each (i0, i1, j0, j1), and what to add to it for one plane further out.
 
-    The digits get a place more than they have values, so that no step can carry into the next digit unnoticed.
+    The digits get a place more than they have values, so that no step can carry into the next digit
+    unnoticed.
     """
     planes = (candidates.x_plus, candidates.x_minus, candidates.y_plus, candidates.y_minus)
     place = np.cumprod([1] + [len(p) + 2 for p in planes[:0:-1]])[::-1]
@@ -93,7 +94,7 @@ def _neighbours(candidates: CandidateSet) -> tuple[Int, Int]:
 def make_cover(
     candidates: CandidateSet, grid: OccupancyGrid, chosen: Int, gained: Int | None = None
 ) -> RectangleCover:
-    """The cover by the given rows of the candidate set; ``gained`` is counted in their order where not given."""
+    """The cover by the given rows of the candidate set; ``gained`` is counted in their order if not given."""
     i0, i1, j0, j1 = candidates.index[chosen].T
     sides = (candidates.x_plus[i0], candidates.y_plus[j0], candidates.x_minus[i1], candidates.y_minus[j1])
     bounds = np.column_stack(sides).astype(np.float64).reshape(-1, 4)

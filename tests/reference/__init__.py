@@ -1,1 +1,1 @@
-"""Plain implementations that the library is compared with: written to be obviously right, never to be fast."""
+"""Plain implementations to compare the library with: written to be obviously right, never to be fast."""

@@ -1,4 +1,4 @@
-"""The paper's rectangles and set cover, word for word: every rectangle is built, every ratio computed anew."""
+"""The paper's rectangles and cover, word for word: every rectangle built, every ratio computed anew."""
 
 from __future__ import annotations
 
