@@ -27,7 +27,7 @@ class RegionSide:
     @property
     def speculated(self) -> bool:
         """True where most of the side is a guess."""
-        return self.observed < 0.5
+        return bool(self.observed < 0.5)
 
 
 @dataclass(frozen=True)
