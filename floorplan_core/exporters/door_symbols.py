@@ -46,26 +46,31 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
     """The leaves of a door; none for an opening."""
     if opening.door.kind != "door":
         return ()
-    options: list[tuple[tuple[bool, bool, bool, float], int, tuple[Leaf, ...]]] = []
+    options: list[tuple[tuple[bool, bool, float], int, tuple[Leaf, ...], Region | None]] = []
     polygons = np.array([r.polygon for r in regions], dtype=object)
     for direction in (-1, 1):
         inside = np.flatnonzero(shapely.contains_xy(polygons, *_beyond(opening, direction)))
         region = regions[int(inside[0])] if len(inside) else None
         for hinge in ("start", "end"):
-            made = _make(opening, direction, hinge)
-            options.append((_cost(opening, made, region, hinge), len(options), made))
-    return min(options)[2]
+            cost = _cost(opening, region, hinge)
+            options.append((cost, len(options), _make(opening, direction, hinge), region))
+    options.sort(key=lambda option: option[:2])
+    return next((made for _, _, made, region in options if _clear(made, region)), options[0][2])
 
 
-def _cost(
-    opening: Opening, made: tuple[Leaf, ...], region: Region | None, hinge: str
-) -> tuple[bool, bool, bool, float]:
-    """Smaller is better: outside the plan, hits a wall, opens into a corridor, far from a corner."""
+def _cost(opening: Opening, region: Region | None, hinge: str) -> tuple[bool, bool, float]:
+    """Smaller is better: outside the plan, opens into a corridor, far from a corner."""
     if region is None:
-        return True, True, True, 0.0
+        return True, True, 0.0
+    return False, region.label != "room", _to_corner(opening, region, hinge)
+
+
+def _clear(made: tuple[Leaf, ...], region: Region | None) -> bool:
+    """True where the leaves swing over the region's floor only."""
+    if region is None:
+        return False
     sectors = [leaf.sector for leaf in made]
-    clear = all(region.polygon.intersection(s).area >= CLEAR * s.area for s in sectors)
-    return False, not clear, region.label != "room", _to_corner(opening, region, hinge)
+    return all(region.polygon.intersection(s).area >= CLEAR * s.area for s in sectors)
 
 
 def _to_corner(opening: Opening, region: Region, hinge: str) -> float:

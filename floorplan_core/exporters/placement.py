@@ -54,7 +54,12 @@ def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Pl
 
     ``free`` is a polygon inside ``floor``, whose corners tell where its arms run.
     """
-    spots = _spots(free, free if floor is None else floor)
+    centre = shapely.get_coordinates(free.centroid)
+    shapely.prepare(free)
+    at_once = _try(tuple(lines), free, centre, pad)
+    if at_once is not None:
+        return at_once
+    spots = _spots(free, free if floor is None else floor, centre)
     for count in range(len(lines), 0, -1):
         for shrink in SHRINK:
             scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
@@ -79,15 +84,13 @@ def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float) -> Placed
     return None
 
 
-def _spots(free: Any, floor: Any) -> Float:
-    """(K, 2) candidate centres, best first; ties by row."""
-    shapely.prepare(free)
+def _spots(free: Any, floor: Any, home: Float) -> Float:
+    """(K, 2) candidate centres, nearest to ``home`` first; ties by row."""
     corners = shapely.get_coordinates(floor)
     grid = np.stack(np.meshgrid(_ticks(corners[:, 0]), _ticks(corners[:, 1])), axis=-1).reshape(-1, 2)
-    home = shapely.get_coordinates(free.centroid)[0]
     inside = grid[shapely.contains_xy(free, grid)]
     near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
-    return np.vstack([home[None], inside[near]])
+    return np.vstack([home, inside[near]])
 
 
 def _ticks(values: Float) -> Float:

@@ -53,7 +53,7 @@ def svg_text(plan: FloorPlan) -> str:
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
     _draw_rooms(canvas, sheet, plan)
-    labels = place_labels(sheet, plan, _swept(sheet, walls, swings))
+    labels = place_labels(sheet, plan, _swept(sheet, swings))
     _draw_predicted(canvas, sheet, plan, label_ground(labels))
     _draw_walls(canvas, sheet, walls)
     _draw_doors(canvas, sheet, walls, swings)
@@ -117,8 +117,11 @@ def region_title(region: Region) -> str:
 def _draw_predicted(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, text: Any) -> None:
     """Hatches, left out under ``text`` (page geometry) so that it can be read."""
     floor = predicted_floor(plan)
+    shapely.prepare(floor)
     with canvas.group(id="predicted"):
         for region in plan.regions:
+            if not shapely.intersects(floor, region.polygon):
+                continue
             part = floor.intersection(region.polygon)
             fill = f"url(#predicted-{palette.tone(region.label).accent[1:]})"
             canvas.area(_polygons(sheet.geometry(part).difference(text)), fill=fill)
@@ -188,7 +191,6 @@ def _draw_leaf(canvas: SvgCanvas, sheet: Sheet, leaf: Leaf) -> None:
     canvas.line(hinge, tip, stroke_width=LEAF)
 
 
-def _swept(sheet: Sheet, walls: Poche, swings: list[tuple[Leaf, ...]]) -> Any:
+def _swept(sheet: Sheet, swings: list[tuple[Leaf, ...]]) -> list[Any]:
     """Ground that doors sweep, on the page: labels keep off."""
-    sectors = [leaf.sector for made in swings for leaf in made]
-    return sheet.geometry(shapely.union_all(sectors)) if sectors else shapely.Polygon()
+    return [sheet.geometry(leaf.sector) for made in swings for leaf in made]

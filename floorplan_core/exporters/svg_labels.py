@@ -20,8 +20,8 @@ RECTANGULAR = 0.995  # share of its bounds that a region fills to be called a re
 CAP = 0.72  # height of capitals over font size
 
 
-def place_labels(sheet: Sheet, plan: FloorPlan, swept: Any) -> list[Placed]:
-    """A label for each region; ``swept`` is ground on the page that text keeps off."""
+def place_labels(sheet: Sheet, plan: FloorPlan, swept: Sequence[Any]) -> list[Placed]:
+    """A label for each region; ``swept`` are polygons on the page that text keeps off."""
     return [_place(region, sheet.geometry(region.polygon), swept) for region in plan.regions]
 
 
@@ -58,8 +58,10 @@ def display_name(region: Region) -> str:
     return f"{region.label.capitalize()} {region.name}" if region.name.isdigit() else region.name
 
 
-def _place(region: Region, floor: Any, swept: Any) -> Placed:
-    free = _largest(floor.difference(swept)) if not swept.is_empty else floor
+def _place(region: Region, floor: Any, swept: Sequence[Any]) -> Placed:
+    shapely.prepare(floor)
+    near = [sector for sector in swept if floor.intersects(sector)]
+    free = _largest(floor.difference(shapely.union_all(near))) if near else floor
     placed = place(label_lines(region), free, PAD, floor)
     if not placed.fits and region.name.isdigit():
         placed = place((Line(region.name, NAME, "name"),), floor, PAD / 2)

@@ -86,46 +86,55 @@ def _box(axis: int, low: float, high: float, start: float, end: float) -> Any:
 
 def _guessed(solid: Any, regions: Sequence[Region], thickness: float, thickest: float) -> Any:
     """Wall behind guessed sides, unless its other face was seen."""
-    sides = [(region, side) for region in regions for side in region.sides]
-    guessed = shapely.union_all(
-        [p for r, s in sides if s.speculated for p in _strips(r, s, thickness, thickest)]
-    )
-    guessed = guessed.intersection(solid)
-    if guessed.is_empty:
-        return guessed
+    sides = [(region, side) for region in regions for side in region.sides if side.length > 0]
+    speculated = np.array([side.speculated for _, side in sides], dtype=bool)
+    if not speculated.any():
+        return shapely.MultiPolygon()
+    strips = _strips(sides, thickness, thickest)
+    guessed = shapely.union_all(strips[:, speculated]).intersection(solid)
+    seen = strips[:, ~speculated].ravel()
     shapely.prepare(guessed)
-    seen = [p for r, s in sides if not s.speculated for p in _strips(r, s, thickness, thickest)]
-    return guessed.difference(shapely.union_all([p for p in seen if guessed.intersects(p)])).buffer(0)
+    near = seen[shapely.intersects(guessed, seen)]
+    return guessed.difference(shapely.union_all(near)).buffer(0)
 
 
-def _strips(region: Region, side: RegionSide, thickness: float, thickest: float) -> list[Any]:
-    """The ground behind a side: deep along its length, and one thickness deep around its corners."""
-    a, b = np.array(side.start), np.array(side.end)
-    if side.length == 0:
-        return []
-    along = (b - a) / side.length
-    out = np.array([along[1], -along[0]])
-    if shapely.contains_xy(region.polygon, *((a + b) / 2 + PROBE * out)):
-        out = -out
+def _strips(sides: Sequence[tuple[Region, RegionSide]], thickness: float, thickest: float) -> NDArray[Any]:
+    """(2, N) the ground behind each side: deep along its length, one thickness deep around its corners."""
+    a, b = (np.array([getattr(side, end) for _, side in sides], dtype=np.float64) for end in ("start", "end"))
+    along = (b - a) / np.hypot(*(b - a).T)[:, None]
+    out = np.column_stack([along[:, 1], -along[:, 0]])
+    probe = (a + b) / 2 + PROBE * out
+    polygons = np.array([region.polygon for region, _ in sides], dtype=object)
+    out[shapely.contains_xy(polygons, probe[:, 0], probe[:, 1])] *= -1
     corner = thickness * along
-    deep = shapely.Polygon([a, b, b + thickest * out, a + thickest * out])
-    return [
-        deep,
-        shapely.Polygon([a - corner, b + corner, b + corner + thickness * out, a - corner + thickness * out]),
-    ]
+    deep = np.stack([a, b, b + thickest * out, a + thickest * out], axis=1)
+    a, b = a - corner, b + corner
+    around = np.stack([a, b, b + thickness * out, a + thickness * out], axis=1)
+    return np.stack([shapely.polygons(deep), shapely.polygons(around)])
 
 
 def predicted_cells(plan: FloorPlan) -> NDArray[np.bool_]:
     """(ny, nx) cells of predicted floor, without the specks along walls and under furniture."""
-    from scipy.ndimage import binary_dilation, binary_opening, label
+    from scipy.ndimage import label
 
     unseen = regions_mask(plan.regions, plan.grid) & (plan.grid.states != FREE)
-    block = np.ones((3, 3), dtype=bool)
-    patches, _ = label(binary_dilation(binary_opening(unseen, block), block, mask=unseen))
+    core = ~_grown(~unseen)  # what is at least three cells wide
+    patches, _ = label(_grown(_grown(core)) & unseen)
     sizes = np.bincount(patches.ravel()) * plan.grid.cell**2
     sizes[0] = 0.0
     large: NDArray[np.bool_] = sizes[patches] >= MIN_PREDICTED
     return large
+
+
+def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The mask and its eight neighbours."""
+    wide = mask.copy()
+    wide[:, 1:] |= mask[:, :-1]
+    wide[:, :-1] |= mask[:, 1:]
+    tall = wide.copy()
+    tall[1:] |= wide[:-1]
+    tall[:-1] |= wide[1:]
+    return tall
 
 
 def predicted_floor(plan: FloorPlan) -> Any:

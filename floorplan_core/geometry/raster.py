@@ -7,6 +7,7 @@ polygon of a mask is the union of its cells. Cost: edges times rows; boundary co
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from typing import Any
 
@@ -44,7 +45,7 @@ def polygon_window(
 
 def _index(value: float, origin: float, cell: float, count: int) -> int:
     """The first cell whose centre is not below ``value``, within the grid."""
-    return int(min(max(np.ceil((value - origin) / cell - 0.5), 0), count))
+    return min(max(math.ceil((value - origin) / cell - 0.5), 0), count)
 
 
 def _toggle(
@@ -56,10 +57,13 @@ def _toggle(
     """
     x0, y0, x1, y1 = edge
     (i0, j0), (ny, nx) = corner, crossings.shape
-    rows = np.arange(*(_index(v, origin[1], cell, j0 + ny) for v in sorted((y0, y1))))
-    rows = rows[rows >= j0]
-    if len(rows) == 0:
+    low, high = (max(_index(v, origin[1], cell, j0 + ny), j0) for v in sorted((y0, y1)))
+    if low >= high:
         return
+    if x0 == x1:
+        crossings[low - j0 : high - j0, _index(x0, origin[0], cell, i0 + nx - 1) - i0] ^= True
+        return
+    rows = np.arange(low, high)
     x = x0 + (origin[1] + cell * (rows + 0.5) - y0) * ((x1 - x0) / (y1 - y0))
     columns = np.ceil((x - origin[0]) / cell - 0.5).astype(np.int64) - i0
     crossings[rows - j0, np.clip(columns, 0, nx - 1)] ^= True  # a row crosses an edge once: no index repeats
