@@ -13,7 +13,14 @@ from floorplan_core.model import LocalFrame, PointChunk, Reconstruction, Traject
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.axes import guess_axes
-from floorplan_core.readers.local import LIMIT, choose_shift, keep_finite, local_points, local_trajectory
+from floorplan_core.readers.local import (
+    LIMIT,
+    choose_shift,
+    keep_finite,
+    local_points,
+    local_trajectory,
+    world_points,
+)
 from floorplan_core.readers.source import PointSource, RawChunk
 from floorplan_core.readers.trajectory import read_trajectory
 from floorplan_core.readers.trajectory_files import (
@@ -42,7 +49,8 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
     notes.extend(guess.sentences)
     scale, rotation = METRES_PER_UNIT[guess.unit], up_rotation(guess.up)
     frame = LocalFrame(scale, guess.unit, guess.up, rotation)
-    frame = replace(frame, shift=choose_shift(frame.to_local(points)))
+    in_world = world_points(points, frame)
+    frame = replace(frame, shift=choose_shift(in_world))
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
     if trajectory is not None:
@@ -51,7 +59,7 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
             notes.append("The trajectory is in metres, unlike the points.")
         trajectory = local_trajectory(in_metres or trajectory, frame)
         ids = _usable(scan_id, len(trajectory), name)
-        check_plausible(name, frame.to_local(points), ids, trajectory, options.input.max_range)
+        check_plausible(name, in_world - frame.shift, ids, trajectory, options.input.max_range)
     rows = None if trajectory is None or not source.has_scan_id else len(trajectory)
     return Reconstruction(
         name=name,

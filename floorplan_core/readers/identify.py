@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from floorplan_core.readers.trajectory import looks_like_trajectory
+
 MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"\xff\xd8\xff", "a JPEG picture, not a point cloud"),
     (b"\x89PNG\r\n", "a PNG picture, not a point cloud"),
@@ -48,4 +50,6 @@ def identify(head: bytes, path: Path) -> str:
         return "an XML document, not a point cloud"
     if start.startswith((b"{", b"[")) and path.suffix.lower() in (".json", ".geojson"):
         return "a JSON document, not a point cloud"
+    if path.is_file() and looks_like_trajectory(path):
+        return "a trajectory, not a point cloud; open the cloud and name this file with --trajectory"
     return ""

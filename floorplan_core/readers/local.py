@@ -22,6 +22,13 @@ def choose_shift(points: Float) -> Float:
     return np.where(np.abs(middle) > SHIFT_FROM, middle, 0.0) + 0.0
 
 
+def world_points(points: NDArray[Any], frame: LocalFrame) -> Float:
+    """(N, 3) float64 metres, z up, before any shift; column by column as below."""
+    columns = [int(np.argmax(np.abs(row))) for row in frame.rotation]
+    factors = frame.scale * frame.rotation[range(3), columns]
+    return np.asarray(points[:, columns] * factors, dtype=np.float64)
+
+
 def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float | None) -> NDArray[np.float32]:
     """(N, 3) float32 local coordinates.
 

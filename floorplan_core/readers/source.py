@@ -21,7 +21,7 @@ from floorplan_core.model import Trajectory
 Float = NDArray[np.float64]
 
 CHUNK_POINTS = 1 << 20  # points of a chunk: 16 MB, small enough to cancel between, large enough for numpy
-SAMPLE_POINTS = 1 << 16  # points from which unit and axes are guessed: a few milliseconds of work
+SAMPLE_POINTS = 1 << 15  # points from which unit and axes are guessed: a few milliseconds of work
 SAMPLE_BLOCKS = 128  # places of a file from which the sample is taken, so that it covers the whole run
 
 

@@ -1,0 +1,181 @@
+"""Columns over the plan: which heights were hit in each, as bits, and where vertical surfaces run.
+
+Bit k of a column stands for the heights from ``k * LEVEL`` to ``(k + 1) * LEVEL`` above the floor, so that
+questions like "does it reach the ceiling?" or "is it free from 0.4 to 1.8 m?" are one machine instruction.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+Bits = NDArray[np.uint64]
+
+LEVEL = 0.1  # m
+LEVELS = 62
+
+
+def height_mask(low: float, high: float) -> np.uint64:
+    """Bits of the levels that lie wholly between two heights (metres above the floor)."""
+    first = max(0, round(np.ceil(low / LEVEL - 1e-6)))
+    last = min(LEVELS, round(np.floor(high / LEVEL + 1e-6)))
+    return np.uint64(0) if last <= first else np.uint64(((1 << (last - first)) - 1) << first)
+
+
+def count_bits(bits: Bits) -> NDArray[np.int64]:
+    """Number of set bits of each element."""
+    return np.bitwise_count(bits).astype(np.int64)
+
+
+@njit(cache=True, inline="always")
+def popcount(value):  # type: ignore[no-untyped-def]
+    """Set bits of a 64-bit word (SWAR)."""
+    v = value - ((value >> np.uint64(1)) & np.uint64(0x5555555555555555))
+    v = (v & np.uint64(0x3333333333333333)) + ((v >> np.uint64(2)) & np.uint64(0x3333333333333333))
+    v = (v + (v >> np.uint64(4))) & np.uint64(0x0F0F0F0F0F0F0F0F)
+    return (v * np.uint64(0x0101010101010101)) >> np.uint64(56)
+
+
+@njit(cache=True, nogil=True)
+def hit_columns(xyz, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
+    """(ny, nx) bits of the levels in which any of the (N, 3) points (z above the floor) lies."""
+    out = np.zeros((ny, nx), dtype=np.uint64)
+    for i in range(len(xyz)):
+        ix, iy = int(np.floor((xyz[i, 0] - origin[0]) / cell)), int(np.floor((xyz[i, 1] - origin[1]) / cell))
+        k = int(np.floor(xyz[i, 2] / LEVEL))
+        if 0 <= ix < nx and 0 <= iy < ny and 0 <= k < LEVELS:
+            out[iy, ix] |= np.uint64(1) << np.uint64(k)
+    return out
+
+
+@njit(cache=True, nogil=True)
+def facing_columns(u, v, z, toward, eligible, origin_u, origin_v, cell, nv, nu):  # type: ignore[no-untyped-def]
+    """Bits, weight and weighted u, v of the points that are seen from the side to which the facing looks.
+
+    ``toward`` is the cosine-like component of the view along the facing's normal; points with ``toward < least``
+    belong to the other face. Rows run along v, columns along u.
+    """
+    bits = np.zeros((nv, nu), dtype=np.uint64)
+    sums = np.zeros((nv, nu, 3), dtype=np.float32)
+    for i in range(len(u)):
+        if not eligible[i] or toward[i] < 0.03:
+            continue
+        iu, iv = int(np.floor((u[i] - origin_u) / cell)), int(np.floor((v[i] - origin_v) / cell))
+        k = int(np.floor(z[i] / LEVEL))
+        if 0 <= iu < nu and 0 <= iv < nv and 0 <= k < LEVELS:
+            bits[iv, iu] |= np.uint64(1) << np.uint64(k)
+            sums[iv, iu, 0] += 1.0
+            sums[iv, iu, 1] += u[i] - (origin_u + iu * cell)
+            sums[iv, iu, 2] += v[i] - (origin_v + iv * cell)
+    return bits, sums
+
+
+@njit(cache=True, nogil=True)
+def surface_offsets(bits, sums, band, cell, half, tangent, least):  # type: ignore[no-untyped-def]
+    """Where the columns line up along v: the local offset (cells along u, as a float), else NaN.
+
+    In a window of ``2 * half + 1`` cells the covariance of the columns, each weighted by its number of levels in
+    ``band``, must be long along v: its main direction within the angle whose tangent is ``tangent``.
+    """
+    nv, nu = bits.shape
+    out = np.full((nv, nu), np.nan, dtype=np.float32)
+    for iv in range(nv):
+        for iu in range(nu):
+            if bits[iv, iu] & band == 0:
+                continue
+            w = wu = wv = wuu = wuv = wvv = 0.0
+            for jv in range(max(0, iv - half), min(nv, iv + half + 1)):
+                for ju in range(max(0, iu - half), min(nu, iu + half + 1)):
+                    b = bits[jv, ju] & band
+                    if b == 0:
+                        continue
+                    p = float(popcount(b))
+                    du = ju - iu + sums[jv, ju, 1] / (sums[jv, ju, 0] * cell)
+                    dv = jv - iv + sums[jv, ju, 2] / (sums[jv, ju, 0] * cell)
+                    w += p
+                    wu += p * du
+                    wv += p * dv
+                    wuu += p * du * du
+                    wuv += p * du * dv
+                    wvv += p * dv * dv
+            if w < least:
+                continue
+            mu, mv = wu / w, wv / w
+            cuu, cuv, cvv = wuu / w - mu * mu, wuv / w - mu * mv, wvv / w - mv * mv
+            if cvv < 1.0 or cuu > 0.45 * cvv or abs(cuv) > tangent * (cvv - cuu):
+                continue
+            if abs(mu - sums[iv, iu, 1] / (sums[iv, iu, 0] * cell)) > 1.6:
+                continue
+            out[iv, iu] = iu + mu
+    return out
+
+
+@njit(cache=True, nogil=True)
+def link_chains(offsets, bits, tolerance, gap):  # type: ignore[no-untyped-def]
+    """Link surface columns along v into chains of nearly constant offset.
+
+    ``tolerance`` and ``gap`` are in cells. Returns the nodes (chain, row, first column, last column, offset, bits),
+    one for each row that a chain crosses, in order of rows, and the number of chains.
+    """
+    nv, nu = offsets.shape
+    most = nv * 8 + 64
+    chain_u, chain_w, chain_last = np.zeros(most), np.zeros(most), np.full(most, -(1 << 30))
+    recent = np.zeros(most)
+    n_chains, n_nodes, active_from = 0, 0, 0
+    node = np.zeros((4096, 4), dtype=np.int64)
+    node_u, node_bits = np.zeros(4096), np.zeros(4096, dtype=np.uint64)
+    active = np.zeros(most, dtype=np.int64)
+    n_active = 0
+    for iv in range(nv):
+        kept = 0
+        for a in range(n_active):
+            if chain_last[active[a]] >= iv - gap:
+                active[kept] = active[a]
+                kept += 1
+        n_active = kept
+        iu = 0
+        while iu < nu:
+            if np.isnan(offsets[iv, iu]):
+                iu += 1
+                continue
+            first, total, mean, word = iu, 0.0, 0.0, np.uint64(0)
+            while iu < nu and not np.isnan(offsets[iv, iu]):
+                if total > 0 and abs(offsets[iv, iu] - mean / total) > 0.8:
+                    break
+                p = float(popcount(bits[iv, iu]))
+                mean += p * offsets[iv, iu]
+                total += p
+                word |= bits[iv, iu]
+                iu += 1
+            u = mean / total
+            for ju in (first - 1, iu):  # the neighbours hold the tails of the noise
+                if 0 <= ju < nu:
+                    word |= bits[iv, ju]
+            best, best_d = -1, tolerance
+            for a in range(n_active):
+                c = active[a]
+                d = max(abs(recent[c] - u), abs(chain_u[c] - u))
+                if chain_last[c] < iv and d < best_d:
+                    best, best_d = c, d
+            if best < 0:
+                if n_chains == most:
+                    continue
+                best = n_chains
+                n_chains += 1
+                active[n_active] = best
+                n_active += 1
+                recent[best] = u
+            chain_u[best] = (chain_u[best] * chain_w[best] + u * total) / (chain_w[best] + total)
+            chain_w[best] += total
+            recent[best] += 0.2 * (u - recent[best])
+            chain_last[best] = iv
+            if n_nodes == len(node):
+                node = np.concatenate((node, np.zeros_like(node)))
+                node_u = np.concatenate((node_u, np.zeros_like(node_u)))
+                node_bits = np.concatenate((node_bits, np.zeros_like(node_bits)))
+            node[n_nodes, 0], node[n_nodes, 1], node[n_nodes, 2], node[n_nodes, 3] = best, iv, first, iu - 1
+            node_u[n_nodes], node_bits[n_nodes] = u, word
+            n_nodes += 1
+    return node[:n_nodes], node_u[:n_nodes], node_bits[:n_nodes], n_chains

@@ -1,0 +1,58 @@
+"""Rectilinear polygons: simplification, and moving whole sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+_SAME = 1e-6  # m, coordinates closer than this are equal
+
+
+def corners(ring: Float) -> Float:
+    """(N, 2) corners of a closed rectilinear ring: no repeated, no collinear vertices; not closed."""
+    points = ring[:-1] if np.allclose(ring[0], ring[-1]) else ring
+    while True:
+        before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
+        straight = (np.abs(points - before) < _SAME) & (np.abs(after - points) < _SAME)
+        keep = ~straight.any(axis=1)
+        if keep.all() or keep.sum() < 4:
+            return points if keep.all() else points[:0]
+        points = points[keep]
+
+
+def move_sides(ring: Float, target: Callable[[Float, Float], float]) -> Float:
+    """(N, 2) corners with every side moved to the offset ``target(start, end)`` across its own direction."""
+    points = corners(ring)
+    out = points.copy()
+    for k in range(len(points)):
+        a, b = points[k], points[(k + 1) % len(points)]
+        across = 0 if abs(a[0] - b[0]) < _SAME else 1
+        out[k, across] = out[(k + 1) % len(points), across] = target(a, b)
+    return out
+
+
+def map_polygon(polygon: Any, move: Callable[[Float], Float]) -> Any:
+    """Apply ``move`` to the corners of each ring; rings that collapse are dropped."""
+    shell = move(np.asarray(polygon.exterior.coords))
+    holes = [move(np.asarray(ring.coords)) for ring in polygon.interiors]
+    return shapely.Polygon(shell, [h for h in holes if len(h) >= 4])
+
+
+def open_polygon(polygon: Any, width: float) -> Any:
+    """Remove the parts narrower than ``width`` (morphological opening with a square)."""
+    if width <= 0:
+        return polygon
+    shrunk = polygon.buffer(-width / 2, join_style="mitre", mitre_limit=10)
+    return shrunk.buffer(width / 2, join_style="mitre", mitre_limit=10)
+
+
+def polygons_of(shape: Any) -> list[Any]:
+    """The polygons of a polygon, multi-polygon or collection, largest first."""
+    parts = [p for p in shapely.get_parts(shape) if p.geom_type == "Polygon" and p.area > 0]
+    return sorted(parts, key=lambda p: (-p.area, p.bounds))

@@ -1,0 +1,160 @@
+"""Surfels: the sums of the points in each small voxel, in integers.
+
+Integer sums do not depend on the order of addition: a survey integrated scan by scan, in chunks or at once
+gives bit for bit the same sums. One pass over the points, O(1) each; memory grows with the surface, not with
+the number of points.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, block_slot, pack
+
+Float = NDArray[np.float64]
+
+STEPS = 100  # a voxel is divided into this many steps a side for the sums: 0.5 mm at 5 cm
+VIEW_STEPS = 64  # resolution of the unit view direction
+COLUMNS = 9  # count, sums of x, y, z, sums of xx, xy, yy, sums of the view's x, y
+MOST_POINTS = 200_000  # of a voxel: its sums of squares stay within 32 bits, its mean is long settled
+_START = 1 << 16
+
+
+@dataclass(frozen=True)
+class Surfels:
+    """The occupied small voxels as arrays, ``N`` of them."""
+
+    centroid: Float  # (N, 3) metres, local frame
+    count: NDArray[np.int32]  # (N,) points
+    variance: Float  # (N, 3) m2: xx, xy, yy of the points about the centroid
+    view: Float  # (N, 2) mean of the unit directions from the points to their sensor; 0 where unknown
+    size: float  # metres, side of a voxel
+
+    def __len__(self) -> int:
+        return len(self.count)
+
+
+class SurfelMap:
+    """A growing table of voxel sums: a hash from keys to rows, rows in the order of their first point."""
+
+    def __init__(self, size: float) -> None:
+        self.size = size
+        self._table = np.full(2 * _START, EMPTY, dtype=np.int64)
+        self._row = np.zeros(2 * _START, dtype=np.int32)
+        self._keys = np.zeros(_START, dtype=np.int64)
+        self._sums = np.zeros((_START, COLUMNS), dtype=np.int32)
+        self._used = 0
+        self.points = 0  # points that were inserted
+
+    def __len__(self) -> int:
+        return self._used
+
+    def insert(
+        self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
+    ) -> None:
+        """Add (N, 3) points; ``scan[i]`` picks the sensor origin of point i, -1 where there is none.
+
+        Points that are not finite, or outside ``limits`` (nearest, farthest range, metres), are left out.
+        """
+        start = 0
+        while start < len(points):
+            start, self._used, added = _insert(
+                points, scan, origins, self.size, limits[0], limits[1],
+                self._table, self._row, self._keys, self._sums, self._used, start,
+            )  # fmt: skip
+            self.points += added
+            if start < len(points):
+                self._grow()
+
+    def _grow(self) -> None:
+        capacity = 2 * len(self._keys)
+        self._keys = np.concatenate([self._keys, np.zeros(capacity // 2, dtype=np.int64)])
+        self._sums = np.concatenate([self._sums, np.zeros((capacity // 2, COLUMNS), dtype=np.int32)])
+        self._table = np.full(2 * capacity, EMPTY, dtype=np.int64)
+        self._row = np.zeros(2 * capacity, dtype=np.int32)
+        _fill(self._keys, self._used, self._table, self._row)
+
+    def surfels(self) -> Surfels:
+        """The map as arrays, in the order in which the voxels were first seen."""
+        sums = self._sums[: self._used]
+        centroid, variance, view = _unpack(self._keys[: self._used], sums, self.size)
+        return Surfels(centroid, sums[:, 0].copy(), variance, view, self.size)
+
+
+@njit(cache=True, nogil=True)
+def _insert(points, scan, origins, size, nearest, farthest, table, row, keys, sums, used, start):  # type: ignore[no-untyped-def]
+    mask, added = len(table) - 1, 0
+    near2, far2, inverse = nearest * nearest, farthest * farthest, 1.0 / size
+    for i in range(start, len(points)):
+        x, y, z = np.float64(points[i, 0]), np.float64(points[i, 1]), np.float64(points[i, 2])
+        if not (np.isfinite(x) and np.isfinite(y) and np.isfinite(z)):
+            continue
+        vx, vy = 0.0, 0.0
+        if scan[i] >= 0:
+            vx, vy, vz = origins[scan[i], 0] - x, origins[scan[i], 1] - y, origins[scan[i], 2] - z
+            r2 = vx * vx + vy * vy + vz * vz
+            if not (r2 >= near2 and r2 <= far2):
+                continue
+            scale = VIEW_STEPS / np.sqrt(max(r2, 1e-12))
+            vx, vy = vx * scale, vy * scale
+        fx, fy, fz = x * inverse, y * inverse, z * inverse
+        if abs(fx) >= BIAS - 1 or abs(fy) >= BIAS - 1 or abs(fz) >= BIAS - 1:
+            continue
+        ix, iy, iz = int(np.floor(fx)), int(np.floor(fy)), int(np.floor(fz))
+        key = pack(ix, iy, iz)
+        slot = block_slot(ix, iy, iz, mask)
+        while table[slot] != key and table[slot] != EMPTY:
+            slot = (slot + 1) & mask
+        if table[slot] == EMPTY:
+            if used >= len(keys):  # the caller makes room and resumes at this point
+                return i, used, added
+            table[slot], row[slot], keys[used] = key, used, key
+            used += 1
+        r = row[slot]
+        sx, sy, sz = int((fx - ix) * STEPS), int((fy - iy) * STEPS), int((fz - iz) * STEPS)
+        if sums[r, 0] < MOST_POINTS:
+            sums[r, 0] += 1
+            sums[r, 1] += sx
+            sums[r, 2] += sy
+            sums[r, 3] += sz
+            sums[r, 4] += sx * sx
+            sums[r, 5] += sx * sy
+            sums[r, 6] += sy * sy
+            sums[r, 7] += int(np.rint(vx))
+            sums[r, 8] += int(np.rint(vy))
+        added += 1
+    return len(points), used, added
+
+
+@njit(cache=True, nogil=True)
+def _fill(keys, used, table, row):  # type: ignore[no-untyped-def]
+    mask, low = len(table) - 1, (1 << 21) - 1
+    for i in range(used):
+        key = keys[i]
+        slot = block_slot((key >> 42) - BIAS, ((key >> 21) & low) - BIAS, (key & low) - BIAS, mask)
+        while table[slot] != EMPTY:
+            slot = (slot + 1) & mask
+        table[slot], row[slot] = key, i
+
+
+@njit(cache=True, nogil=True)
+def _unpack(keys, sums, size):  # type: ignore[no-untyped-def]
+    n, low, step = len(keys), (1 << 21) - 1, size / STEPS
+    centroid, variance, view = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 2))
+    for i in range(n):
+        c = float(sums[i, 0])
+        mx, my, mz = sums[i, 1] / c, sums[i, 2] / c, sums[i, 3] / c
+        centroid[i, 0] = ((keys[i] >> 42) - BIAS) * size + (mx + 0.5) * step
+        centroid[i, 1] = (((keys[i] >> 21) & low) - BIAS) * size + (my + 0.5) * step
+        centroid[i, 2] = ((keys[i] & low) - BIAS) * size + (mz + 0.5) * step
+        variance[i, 0] = (sums[i, 4] / c - mx * mx) * step * step
+        variance[i, 1] = (sums[i, 5] / c - mx * my) * step * step
+        variance[i, 2] = (sums[i, 6] / c - my * my) * step * step
+        view[i, 0] = sums[i, 7] / (c * VIEW_STEPS)
+        view[i, 1] = sums[i, 8] / (c * VIEW_STEPS)
+    return centroid, variance, view

@@ -1,0 +1,207 @@
+"""Doors (paper, section "Door Detection"): histogram along the plane, smoothed gradient, matched filter.
+
+In: planes with their profiles, the voxel columns and the path. Out: doors, each a child of one or two planes.
+The points of a plane, cropped at 2 m, make a histogram along it; its smoothed gradient falls where an opening
+begins and rises where it ends; the matched filter answers to a fall and a rise one aperture apart. An aperture
+alone may be a gap in the data, so each candidate is then weighed by all other evidence: free space or the
+sensor's path through it, wall on both sides, a lintel above, the same opening in the wall's other face.
+Cost: linear in the length of the planes times the number of widths.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import DoorsConfig
+from floorplan_core.model import Door, LayoutPlane, WallProfile
+from floorplan_core.model.evidence import Evidence
+
+Float = NDArray[np.float64]
+
+_FLANK = 0.5  # m beside an aperture in which wall is looked for
+_WEIGHTS = {"passage": 0.3, "path": 0.35, "lintel": 0.2, "wall on both sides": 0.15, "both faces": 0.15}
+
+
+@dataclass(frozen=True)
+class DoorResponse:
+    """The three signals of the paper along one plane, for the evidence pane; all (B,)."""
+
+    histogram: Float  # 0 to 1: share of the wall height below 2 m that was seen
+    gradient: Float  # its derivative, smoothed; 1 at a clean step
+    response: Float  # best answer of the matched filter for an aperture that starts here
+    width: Float  # metres, the aperture of that answer
+
+
+def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: DoorsConfig) -> tuple[Door, ...]:
+    """All doors and openings under a lintel, by axis, offset and start."""
+    found: list[Door] = []
+    for plane in planes:
+        assert plane.profile is not None
+        for start, end, response in apertures(plane.profile, plane.walls, config):
+            found.append(_weigh(plane, start, end, response, evidence, config))
+    merged = _merge_faces(found, planes, config)
+    kept = sorted(
+        (d for d in merged if d.confidence >= config.min_confidence),
+        key=lambda d: (d.axis, d.offset, d.start),
+    )
+    return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
+
+
+def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
+    """Histogram, smoothed gradient and matched filter of one plane."""
+    seen = profile.low[profile.low > 0]
+    full = float(np.percentile(seen, 60)) if len(seen) else 1.0
+    histogram = np.minimum(profile.low / max(full, 1e-9), 1.0)
+    sigma = max(config.smoothing / profile.step, 0.5)
+    reach = max(2, round(4 * sigma))
+    x = np.arange(-reach, reach + 1)
+    kernel = -x * np.exp(-0.5 * (x / sigma) ** 2)
+    kernel /= kernel[x < 0].sum()  # so that a step from 0 to 1 peaks at 1
+    gradient = np.convolve(histogram, kernel, mode="same")
+    best, width = np.zeros(len(histogram)), np.zeros(len(histogram))
+    inside = np.concatenate([[0.0], np.cumsum(histogram)])
+    for bins in range(round(config.min_width / profile.step), round(config.max_width / profile.step) + 1):
+        if bins >= len(histogram):
+            break
+        fall, rise = -gradient[:-bins], gradient[bins:]
+        empty = 1.0 - (inside[bins:-1] - inside[: -bins - 1]) / bins
+        answer = np.minimum(fall, rise) * empty
+        better = answer > best[:-bins]
+        best[:-bins][better] = answer[better]
+        width[:-bins][better] = bins * profile.step
+    return DoorResponse(histogram, gradient, best, width)
+
+
+def apertures(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[tuple[float, float, float]]:
+    """(start, end, response) of the openings in one plane: peaks of the filter, and gaps under lintels."""
+    signal = door_response(profile, config)
+    out: list[tuple[float, float, float]] = []
+    taken = np.zeros(len(signal.response), dtype=bool)
+    for k in np.argsort(-signal.response, kind="stable"):
+        if signal.response[k] < config.min_response:
+            break
+        end = k + round(signal.width[k] / profile.step)
+        if not taken[k:end].any():
+            taken[max(0, k - 1) : end + 1] = True
+            out.append((*_edges(profile, int(k), int(end)), float(signal.response[k])))
+    out += [gap for gap in _lintel_gaps(profile, walls, config) if not _overlaps(gap, out)]
+    return out
+
+
+def _edges(profile: WallProfile, first: int, last: int) -> tuple[float, float]:
+    """Where the histogram crosses half its height around the two steps: finer than a bin."""
+
+    def crossing(k: int, sign: int) -> float:
+        low, high = max(0, k - 3), min(len(profile.low), k + 4)
+        h = profile.low[low:high]
+        top = h.max()
+        if top <= 0:
+            return profile.start + k * profile.step
+        filled = float(np.minimum(h / top, 1.0).sum())
+        return profile.start + (low + filled if sign > 0 else high - filled) * profile.step
+
+    return crossing(first, 1), crossing(last, -1)
+
+
+def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[tuple[float, float, float]]:
+    """Openings that lie inside a wall run: nothing below 2 m, wall above, free space through."""
+    out = []
+    for start, end in walls:
+        a, b = (round((v - profile.start) / profile.step) for v in (start, end))
+        empty = profile.low[a:b] < 0.12
+        for i, j in np.flatnonzero(
+            np.diff(np.concatenate([[False], empty, [False]]).astype(np.int8))
+        ).reshape(-1, 2):
+            i, j = i + a, j + a
+            width = (j - i) * profile.step
+            if not config.min_width <= width <= config.max_opening or i == a or j == b:
+                continue
+            if profile.through[i:j].mean() > 0.3:
+                out.append((*_edges(profile, int(i), int(j)), float((profile.high[i:j] > 0).mean())))
+    return out
+
+
+def _overlaps(gap: tuple[float, float, float], others: list[tuple[float, float, float]]) -> bool:
+    return any(min(gap[1], o[1]) - max(gap[0], o[0]) > 0.3 * (o[1] - o[0]) for o in others)
+
+
+def _weigh(
+    plane: LayoutPlane, start: float, end: float, response: float, evidence: Evidence, config: DoorsConfig
+) -> Door:
+    """A candidate with its evidence; the other face is added when faces are merged."""
+    profile = plane.profile
+    assert profile is not None
+    a, b = (round((v - profile.start) / profile.step) for v in (start, end))
+    inner = slice(a + 1, max(b - 1, a + 2))
+    flank = round(_FLANK / profile.step)
+    left, right = profile.low[max(0, a - flank) : a], profile.low[b : b + flank]
+    words = []
+    if float((profile.through[inner] > 0.4).mean()) > 0.4:
+        words.append("passage")
+    if _path_crosses(plane, start, end, evidence):
+        words.append("path")
+    if float((profile.high[inner] > 0).mean()) > 0.5:
+        words.append("lintel")
+    if min((left > 0.2).sum(), (right > 0.2).sum()) * profile.step >= 0.25:
+        words.append("wall on both sides")
+    wide = end - start > config.max_width
+    return Door(
+        id="", planes=(plane.id,), axis=plane.facing.axis, offset=plane.offset, start=start, end=end,
+        kind="opening" if wide else "door", evidence=tuple(words),
+        confidence=_confidence(words, response), height=None,
+    )  # fmt: skip
+
+
+def _confidence(words: list[str] | tuple[str, ...], response: float) -> float:
+    """Sum of the evidence; an aperture through which nothing was seen to pass is a gap in the data."""
+    if "passage" not in words and "path" not in words:
+        return 0.2
+    return round(min(1.0, 0.1 * min(response, 1.0) + sum(_WEIGHTS[w] for w in words)), 3)
+
+
+def _path_crosses(plane: LayoutPlane, start: float, end: float, evidence: Evidence) -> bool:
+    """True where the sensor itself went through the aperture."""
+    a = plane.facing.axis
+    u, v = evidence.path[:, a] - plane.offset, evidence.path[:, 1 - a]
+    if len(u) < 2:
+        return False
+    k = np.flatnonzero(u[:-1] * u[1:] < 0)
+    step = np.hypot(u[k + 1] - u[k], v[k + 1] - v[k])
+    at = v[k] + (v[k + 1] - v[k]) * u[k] / (u[k] - u[k + 1])
+    return bool(((at > start) & (at < end) & (step < 2.0)).any())
+
+
+def _merge_faces(found: list[Door], planes: tuple[LayoutPlane, ...], config: DoorsConfig) -> list[Door]:
+    """One door for the two faces of a wall, and for two planes of one face."""
+    facing = {p.id: p.facing for p in planes}
+    out: list[Door] = []
+    for door in sorted(found, key=lambda d: (-d.confidence, d.axis, d.offset, d.start)):
+        for k, other in enumerate(out):
+            if _same_opening(door, other, config):
+                both = facing[door.planes[0]] != facing[other.planes[0]]
+                out[k] = _merged(other, door, both)
+                break
+        else:
+            out.append(door)
+    return out
+
+
+def _same_opening(a: Door, b: Door, config: DoorsConfig) -> bool:
+    overlap = min(a.end, b.end) - max(a.start, b.start)
+    near = abs(a.offset - b.offset) <= config.max_thickness
+    return a.axis == b.axis and near and overlap > 0.5 * min(a.width, b.width)
+
+
+def _merged(sure: Door, other: Door, both_faces: bool) -> Door:
+    words = dict.fromkeys([*sure.evidence, *other.evidence, *(["both faces"] if both_faces else [])])
+    confidence = min(1.0, sure.confidence + (_WEIGHTS["both faces"] if both_faces else 0.0))
+    if not both_faces:
+        return replace(sure, planes=(*sure.planes, *other.planes), evidence=tuple(words))
+    return replace(
+        sure, planes=(*sure.planes, *other.planes), offset=(sure.offset + other.offset) / 2,
+        thickness=max(sure.thickness, abs(sure.offset - other.offset)), confidence=round(confidence, 3),
+        start=(sure.start + other.start) / 2, end=(sure.end + other.end) / 2, evidence=tuple(words),
+    )  # fmt: skip

@@ -1,0 +1,155 @@
+"""Layout planes: the minimum set of infinite planes that explains the structural segments (paper, section 3).
+
+In: segments, the rows in which each was seen, and the voxel columns. Out: planes with their offset (the mean
+of their segments, weighted by what supports them), and a profile along each plane: where wall was seen low and
+high, and where free space passes through. From the profile come the runs that are wall: seen, above a lintel,
+or hidden between two seen parts. Cost: linear in segments times the length of the building.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import DoorsConfig, PlanesConfig
+from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.model import Facing, LayoutPlane, LayoutSegment, WallProfile
+from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.layout_segments import SegmentRows, wall_band
+from floorplan_core.stages.model_selection import pierce_intervals
+
+Float = NDArray[np.float64]
+
+_LOW_FROM = 0.2  # m, skirting and floor
+_PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
+_DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
+
+
+def find_planes(
+    segments: tuple[LayoutSegment, ...], rows: dict[str, SegmentRows], evidence: Evidence, config: PlanesConfig,
+    doors: DoorsConfig,
+) -> tuple[tuple[LayoutSegment, ...], tuple[LayoutPlane, ...]]:  # fmt: skip
+    """The planes, and the segments with the plane that explains each."""
+    named: dict[str, LayoutSegment] = {s.id: s for s in segments}
+    planes: list[LayoutPlane] = []
+    for facing in Facing:
+        mine = [s for s in segments if s.facing == facing and s.structural]
+        if not mine:
+            continue
+        offset = np.array([s.offset for s in mine])
+        reach = np.array([config.tolerance + 3 * min(s.sigma, config.tolerance) for s in mine])
+        group = pierce_intervals(offset - reach, offset + reach)
+        for g in range(int(group.max()) + 1):
+            members = [s for s, k in zip(mine, group, strict=True) if k == g]
+            plane = _plane(f"p{len(planes) + 1}", facing, members, rows, evidence, config, doors)
+            planes.append(plane)
+            named.update({s.id: replace(s, plane=plane.id) for s in members})
+    if not planes:
+        raise NoPlanError(
+            "No wall was recognised: every vertical surface ends below furniture height "
+            "(segments.furniture_height) or is too small; scan higher, or lower that setting."
+        )
+    return tuple(named[s.id] for s in segments), tuple(planes)
+
+
+def _plane(
+    name: str, facing: Facing, members: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
+    config: PlanesConfig, doors: DoorsConfig,
+) -> LayoutPlane:  # fmt: skip
+    weight = np.array([s.area for s in members])
+    offset = float(np.average([s.offset for s in members], weights=weight))
+    residual = float(
+        np.sqrt(np.average([s.residual**2 + 4 * (s.offset - offset) ** 2 for s in members], weights=weight))
+    )
+    profile = _profile(facing, offset, members, rows, evidence, doors)
+    observed = _runs(profile, (profile.low > 0) | (profile.high > 0))
+    plane = LayoutPlane(
+        name,
+        facing,
+        offset,
+        tuple(s.id for s in members),
+        float(weight.sum()),
+        residual,
+        profile=profile,
+        observed=observed,
+    )
+    return replace(plane, walls=wall_runs(profile, config, doors))
+
+
+def _profile(
+    facing: Facing, offset: float, members: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
+    doors: DoorsConfig,
+) -> WallProfile:  # fmt: skip
+    """What was seen along the plane, for every fine cell of the building's extent."""
+    across = facing.axis
+    bins = 2 * (evidence.shape[0] if across == 0 else evidence.shape[1])
+    bits = np.zeros(bins, dtype=np.uint64)
+    for segment in members:
+        np.bitwise_or.at(bits, rows[segment.id].row, rows[segment.id].bits)
+    low_mask = height_mask(_LOW_FROM, doors.crop_height)
+    high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
+    low = count_bits(bits & low_mask) / int(count_bits(low_mask))
+    high = count_bits(bits & high_mask) / max(int(count_bits(high_mask)), 1)
+    return WallProfile(
+        float(evidence.origin[1 - across]), evidence.fine, low, high, _through(facing, offset, evidence)
+    )
+
+
+def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
+    """(bins,) share of the passage heights at which all cells from just in front to behind the wall are free."""
+    free = evidence.free if facing.axis == 0 else evidence.free.T
+    mask = height_mask(*_PASSAGE)
+    steps = np.arange(-_DEPTH, 0.11, evidence.cell)
+    columns = ((offset + facing.sign * steps - evidence.origin[facing.axis]) / evidence.cell).astype(int)
+    columns = np.unique(columns[(columns >= 0) & (columns < free.shape[1])])
+    if len(columns) == 0:
+        return np.zeros(2 * free.shape[0])
+    share = count_bits(np.bitwise_and.reduce(free[:, columns], axis=1) & mask) / int(count_bits(mask))
+    return np.repeat(share, 2)
+
+
+def _runs(profile: WallProfile, mask: NDArray[np.bool_]) -> Float:
+    """(K, 2) start and end in metres of the runs of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
+    return profile.start + edges * profile.step
+
+
+def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) -> Float:
+    """(K, 2) runs that are wall: seen low, below a lintel with wall beside it, or hidden between seen parts.
+
+    A gap is bridged when nothing was seen to pass through it and it is shorter than ``config.bridge``; a gap
+    under a lintel is part of the wall (its opening is reported as a door or opening).
+    """
+    solid = _close(profile.low >= 0.12, 2)
+    lintel = (profile.high > 0) & ~solid
+    wall = solid | lintel
+    runs = np.flatnonzero(np.diff(np.concatenate([[False], wall, [False]]).astype(np.int8))).reshape(-1, 2)
+    joined: list[list[int]] = []
+    for a, b in runs:
+        if joined and _is_hidden(profile, joined[-1][1], a, config):
+            joined[-1][1] = int(b)
+        else:
+            joined.append([int(a), int(b)])
+    kept = [r for r in joined if _stands(profile, solid, r)]
+    return profile.start + np.array(kept, dtype=np.float64).reshape(-1, 2) * profile.step
+
+
+def _close(mask: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
+    """Fill holes of up to ``2 * reach`` cells."""
+    grown = np.convolve(mask, np.ones(2 * reach + 1), mode="same") > 0
+    padded = np.concatenate([np.ones(reach, dtype=bool), grown, np.ones(reach, dtype=bool)])
+    return np.convolve(padded, np.ones(2 * reach + 1), mode="valid") > 2 * reach + 0.5
+
+
+def _is_hidden(profile: WallProfile, a: int, b: int, config: PlanesConfig) -> bool:
+    """True where cells a to b are unseen rather than open."""
+    through = profile.through[a:b]
+    return (b - a) * profile.step <= config.bridge and float((through > 0.15).mean() if b > a else 0.0) < 0.2
+
+
+def _stands(profile: WallProfile, solid: NDArray[np.bool_], run: list[int]) -> bool:
+    """A run must hold wall that stands on the floor: a beam below the ceiling alone separates nothing."""
+    return float(solid[run[0] : run[1]].sum()) * profile.step >= 0.25

@@ -1,0 +1,204 @@
+"""Manhattan frame: gravity and yaw (the paper's assumption of three orthogonal directions, made explicit).
+
+In: surfels of the whole survey. Out: a :class:`ManhattanFrame`. Gravity is the mean normal of the horizontal
+patches. Yaw starts at the strongest direction of the vertical patches modulo 90 degrees; because normals from
+neighbourhoods that reach through a thin wall are biased (a yaw 1.6 degrees off ruins everything), it is then
+refined on the surfels themselves: the yaw under which the walls, projected along their own direction, are
+sharpest. Cost: one pass over the surfels, plus the search on a bounded sample.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from floorplan_core.config import FrameConfig
+from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
+from floorplan_core.geometry.surfel_map import Surfels
+from floorplan_core.model import ManhattanFrame
+
+Float = NDArray[np.float64]
+
+_UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
+_SEARCH = math.radians(3)  # normals are right to this; the search for sharp walls covers it
+_OFFSET_BIN = 0.02  # m, of the projection that is to be sharp
+_SAMPLE = 60_000  # surfels that the search looks at
+_LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
+_MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
+
+
+def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
+    """The rotation after which walls lie along x and y; raises :class:`NoPlanError` where there is none."""
+    normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    up = _gravity(normals)
+    level = _rotation_to_z(up)
+    n = normals.normal @ level.T
+    vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
+    share = float(np.count_nonzero(normals.cell_of >= 0)) / max(float(normals.weight.sum()), 1.0)
+    area = float(normals.weight[vertical].sum()) * surfels.size**2 * max(share, 1.0)
+    if area < _MIN_WALL_AREA:
+        raise NoPlanError(
+            f"No walls were found: only {area:.2f} m2 of vertical surface among {len(surfels)} occupied voxels; "
+            "check the unit and the up axis (--unit, --up), or scan more of the walls."
+        )
+    angle = np.arctan2(n[vertical, 1], n[vertical, 0])
+    weight = normals.weight[vertical]
+    if config.yaw_deg is not None:
+        yaw = _wrap(math.radians(config.yaw_deg))
+    else:
+        coarse = _strongest_direction(angle, weight)
+        yaw = _sharpest_yaw(surfels, normals, vertical, level, coarse, config)
+    support = float(
+        weight[np.abs(_wrap(angle - yaw)) < math.radians(config.tolerance_deg)].sum() / weight.sum()
+    )
+    if support < config.min_support:
+        raise NoPlanError(
+            f"This is no Manhattan world: only {support:.0%} of the wall surface is within "
+            f"{config.tolerance_deg:g} degrees of two perpendicular directions "
+            f"(frame.min_support is {config.min_support:.0%}); if the building has walls at other angles, lower it."
+        )
+    rotation = _rotation_about_z(-yaw) @ level
+    floor, ceiling = _floor_and_ceiling(surfels, normals, rotation)
+    tilt = math.acos(float(np.clip(up[2], -1, 1)))
+    return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
+
+
+def _gravity(normals: CellNormals) -> Float:
+    """Unit up vector: the mode of the near-horizontal patches' normals, then their mean within 3 degrees."""
+    n = normals.normal * np.where(normals.normal[:, 2:] < 0, -1.0, 1.0)
+    near = n[:, 2] > math.cos(_UP_CONE)
+    n, w = n[near], normals.weight[near]
+    up = np.array([0.0, 0.0, 1.0])
+    if w.sum() < 50:  # nothing horizontal was seen: trust the file
+        return up
+    bins = np.round(n[:, :2] / 0.05).astype(int)
+    cells, inverse = np.unique(bins, axis=0, return_inverse=True)
+    mode = n[inverse.ravel() == np.argmax(np.bincount(inverse.ravel(), weights=w))].mean(axis=0)
+    up = mode / np.linalg.norm(mode)
+    for cone in (8.0, 5.0, 3.0, 3.0, 3.0):
+        inside = n @ up > math.cos(math.radians(cone))
+        if not inside.any():
+            break
+        mean = (n[inside] * w[inside, None]).sum(axis=0)
+        up = mean / np.linalg.norm(mean)
+    return up
+
+
+def _rotation_to_z(up: Float) -> Float:
+    """The smallest rotation that takes ``up`` to z (Rodrigues)."""
+    axis = np.cross(up, [0.0, 0.0, 1.0])
+    K = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.asarray(np.eye(3) + K + K @ K / (1.0 + up[2]))
+
+
+def _rotation_about_z(angle: float) -> Float:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _wrap(angle):  # type: ignore[no-untyped-def]
+    """Angles modulo 90 degrees, in (-45, 45]."""
+    quarter = math.pi / 2
+    return -((-angle + quarter / 2) % quarter - quarter / 2)
+
+
+def _strongest_direction(angle: Float, weight: Float) -> float:
+    """The peak of the directions modulo 90 degrees, smoothed over 2 degrees, then their mean within 4."""
+    degrees = np.rad2deg(_wrap(angle))
+    hist, _ = np.histogram(degrees, bins=180, range=(-45, 45), weights=weight)
+    kernel = np.exp(-0.5 * (np.arange(-8, 9) / 3.0) ** 2)
+    smooth = np.convolve(np.concatenate([hist[-8:], hist, hist[:8]]), kernel, mode="valid")
+    peak = math.radians(-45 + 0.5 * (int(np.argmax(smooth)) + 0.5))
+    for _ in range(3):
+        delta = _wrap(angle - peak)
+        near = np.abs(delta) < math.radians(4)
+        if near.any():
+            peak += float(np.average(delta[near], weights=weight[near]))
+    return float(_wrap(peak))
+
+
+def _sharpest_yaw(
+    surfels: Surfels,
+    normals: CellNormals,
+    vertical: NDArray[np.bool_],
+    level: Float,
+    coarse: float,
+    config: FrameConfig,
+) -> float:
+    """The yaw around ``coarse`` that concentrates the walls' offsets most."""
+    n = normals.normal[vertical] @ level.T
+    off = _wrap(np.arctan2(n[:, 1], n[:, 0]) - coarse)
+    axis_of = np.full(len(normals.weight), -1, dtype=np.int8)
+    quarter = np.round((np.arctan2(n[:, 1], n[:, 0]) - coarse - off) / (math.pi / 2)).astype(int) % 2
+    axis_of[vertical] = np.where(np.abs(off) < math.radians(10), quarter, -1)
+    usable = np.flatnonzero(normals.cell_of >= 0)
+    axis = axis_of[normals.cell_of[usable]]
+    usable, axis = usable[axis >= 0], axis[axis >= 0]
+    if len(usable) == 0:
+        return coarse
+    step = max(1, len(usable) // _SAMPLE)
+    points = surfels.centroid[usable[::step]] @ level.T
+    axis = axis[::step]
+    points = points[:, :2] - points[:, :2].mean(axis=0)
+    yaw = coarse
+    fine = math.radians(config.yaw_step_deg)
+    for span, pace in ((_SEARCH, 4 * fine), (8 * fine, fine), (2 * fine, fine / 10)):
+        trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
+        score = _sharpness(points, axis, trial, _OFFSET_BIN)
+        yaw = float(trial[int(np.argmax(score))])
+    return float(_wrap(yaw))
+
+
+@njit(cache=True, nogil=True)
+def _sharpness(points, axis, yaws, width):  # type: ignore[no-untyped-def]
+    """Sum of squares of the histogram of offsets, linearly shared between bins so that it varies smoothly."""
+    reach = 0.0
+    for i in range(len(points)):
+        reach = max(reach, abs(points[i, 0]) + abs(points[i, 1]))
+    half = int(reach / width) + 2
+    score = np.zeros(len(yaws))
+    hist = np.empty((2, 2 * half + 2))
+    for k in range(len(yaws)):
+        hist[:] = 0.0
+        c, s = np.cos(yaws[k]), np.sin(yaws[k])
+        for i in range(len(points)):
+            x, y = points[i, 0], points[i, 1]
+            u = (c * x + s * y if axis[i] == 0 else c * y - s * x) / width + half
+            b = int(u)
+            hist[axis[i], b] += 1.0 - (u - b)
+            hist[axis[i], b + 1] += u - b
+        for a in range(2):
+            for b in range(hist.shape[1]):
+                score[k] += hist[a, b] * hist[a, b]
+    return score
+
+
+def _floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) -> tuple[float, float | None]:
+    """Heights of the lowest strong horizontal level and of the highest at least 1.8 m above it."""
+    n = normals.normal @ rotation.T
+    z = (normals.centre @ rotation.T)[:, 2]
+    flat = np.abs(n[:, 2]) > math.cos(math.radians(20))
+    all_z = surfels.centroid @ rotation[2]
+    if normals.weight[flat].sum() < 100:
+        return float(np.percentile(all_z, 0.5)), None
+    zf, w = z[flat], normals.weight[flat]
+    bins = np.arange(zf.min() - 0.05, zf.max() + 0.11, 0.05)
+    hist, _ = np.histogram(zf, bins=bins, weights=w)
+    smooth = np.convolve(hist, [0.5, 1.0, 0.5], mode="same")
+    strong = np.flatnonzero(smooth > _LEVEL_SHARE * smooth.max())
+    floor = _level_near(zf, w, bins[strong[0]] + 0.025)
+    high = strong[bins[strong] > floor + 1.8]
+    return floor, (_level_near(zf, w, bins[high[-1]] + 0.025) if len(high) else None)
+
+
+def _level_near(z: Float, weight: Float, level: float) -> float:
+    """Weighted mean of the heights within 6 cm of ``level``."""
+    for _ in range(3):
+        near = np.abs(z - level) < 0.06
+        if near.any():
+            level = float(np.average(z[near], weights=weight[near]))
+    return level

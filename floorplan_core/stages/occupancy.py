@@ -1,0 +1,122 @@
+"""The universe F_h: free cells of the voxel map sampled at height h (paper, section "Layout Estimation").
+
+In: voxel columns and the wall runs of the planes. Out: :class:`OccupancyGrid`. Rays leave a building through
+windows and glass: the free cells out there must not drive the cover. Patches of free cells, cut apart by the
+walls, belong to the universe if the sensor was in them, or if enough of them lies under ceiling (over floor
+where the survey shows no ceiling). Cost: linear in cells.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import OccupancyConfig
+from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, LayoutPlane, OccupancyGrid
+from floorplan_core.model.evidence import Bits, Evidence
+
+Float = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_HEIGHTS = (0.5, 1.9)  # m, between which the best slice is looked for
+_BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
+
+
+def slice_map(evidence: Evidence, planes: tuple[LayoutPlane, ...], config: OccupancyConfig) -> OccupancyGrid:
+    """Sample the voxel map and keep the free cells that the cover has to explain."""
+    height = _best_height(evidence) if config.slice_height is None else config.slice_height
+    level = min(int(height / LEVEL), 60)
+    free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
+    occupied = (evidence.occupied & height_mask(level * LEVEL, (level + 1) * LEVEL)) != 0
+    states = np.where(occupied, OCCUPIED, np.where(free, FREE, UNOBSERVED)).astype(np.uint8)
+    universe = _indoors(states == FREE, evidence, planes, config)
+    if not universe.any():
+        raise NoPlanError(
+            f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height to a "
+            "height that the sensor saw through, or give the trajectory (--trajectory)."
+        )
+    return OccupancyGrid(evidence.origin, evidence.cell, states, universe, round(height, 3))
+
+
+def _best_height(evidence: Evidence) -> float:
+    """The middle of the level at which most cells are free."""
+    best, most = _HEIGHTS[0], -1
+    for level in range(round(_HEIGHTS[0] / LEVEL), round(_HEIGHTS[1] / LEVEL)):
+        seen = int(np.count_nonzero(evidence.free & height_mask(level * LEVEL, (level + 1) * LEVEL)))
+        if seen > most:
+            best, most = (level + 0.5) * LEVEL, seen
+    return best
+
+
+def _indoors(
+    free: Mask, evidence: Evidence, planes: tuple[LayoutPlane, ...], config: OccupancyConfig
+) -> Mask:
+    """The free cells in patches that are large enough and not outside."""
+    import cv2
+
+    inside = free & ~_wall_cells(evidence, planes)
+    count, label = cv2.connectedComponents(inside.astype(np.uint8), connectivity=4)
+    area = np.bincount(label.ravel(), minlength=count)
+    visited = np.zeros(count, dtype=bool)
+    visited[_labels_at(label, evidence.path, evidence)] = True
+    keep = (area * evidence.cell**2 >= config.min_component) | visited
+    for cover in (_ceiling_cells(evidence), _floor_cells(evidence)):
+        share = np.bincount(label.ravel(), weights=cover.ravel(), minlength=count) / np.maximum(area, 1)
+        sure = visited if visited[1:].any() else keep
+        typical = (
+            float(np.average(share[1:], weights=area[1:] * sure[1:])) if (area[1:] * sure[1:]).any() else 0.0
+        )
+        if typical > 2 * config.indoor_share:
+            keep &= visited | (share >= config.indoor_share)
+            break
+    keep[0] = False
+    return keep[label]
+
+
+def _wall_cells(evidence: Evidence, planes: tuple[LayoutPlane, ...]) -> Mask:
+    """Cells that a wall run passes through."""
+    out = np.zeros(evidence.shape, dtype=bool)
+    for plane in planes:
+        a = plane.facing.axis
+        grid = out if a == 0 else out.T
+        column = int((plane.offset - evidence.origin[a]) / evidence.cell)
+        if not 0 <= column < grid.shape[1]:
+            continue
+        for start, end in plane.walls:
+            first = max(0, int((start - evidence.origin[1 - a]) / evidence.cell))
+            grid[first : max(0, int(np.ceil((end - evidence.origin[1 - a]) / evidence.cell))), column] = True
+    return out
+
+
+def _labels_at(label: NDArray[np.int32], xy: Float, evidence: Evidence) -> NDArray[np.int32]:
+    """Labels of the cells at (M, 2) positions; those beyond the grid are left out."""
+    cells = np.floor((xy - evidence.origin) / evidence.cell).astype(int)
+    inside = ((cells >= 0) & (cells < np.array(label.shape)[::-1])).all(axis=1)
+    found = label[cells[inside, 1], cells[inside, 0]]
+    return found[found > 0]
+
+
+def _ceiling_cells(evidence: Evidence) -> Mask:
+    """Cells with a surface within 0.4 m of the ceiling's height."""
+    if evidence.frame.ceiling_z is None:
+        return np.zeros(evidence.shape, dtype=bool)
+    top = evidence.frame.ceiling_z - evidence.frame.floor_z
+    return _any_hit(evidence, height_mask(top - 0.4, top + 0.5))
+
+
+def _floor_cells(evidence: Evidence) -> Mask:
+    """Cells with a surface at most 0.2 m above the floor."""
+    return _any_hit(evidence, height_mask(0, 0.2))
+
+
+def _any_hit(evidence: Evidence, mask: np.uint64) -> Mask:
+    hit: Bits = evidence.hits & mask
+    return np.asarray((hit[::2, ::2] | hit[1::2, ::2] | hit[::2, 1::2] | hit[1::2, 1::2]) != 0)
+
+
+def free_share(evidence: Evidence, low: float, high: float) -> Float:
+    """(ny, nx) share of the heights between ``low`` and ``high`` (metres) that is free."""
+    mask = height_mask(low, high)
+    return count_bits(evidence.free & mask) / max(int(count_bits(mask)), 1)

@@ -1,0 +1,123 @@
+"""The voxel map in the manhattan frame: free by ray casting, occupied, unobserved (input of the paper, section 3).
+
+In: surfels, the ray counts and the frame. Out: :class:`Evidence`, whose columns hold a bit for each voxel of
+0.1 m. Where the sensor's origins are unknown, a voxel is free if it lies between a seen floor (or ceiling) and
+the first surface above (below) it. Cost: one pass over surfels and one over the columns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from floorplan_core.config import VoxelConfig
+from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.columns import LEVEL, LEVELS, hit_columns
+from floorplan_core.geometry.ray_carving import MissMap
+from floorplan_core.geometry.surfel_map import Surfels
+from floorplan_core.model import ManhattanFrame
+from floorplan_core.model.evidence import Evidence
+
+Float = NDArray[np.float64]
+
+_MARGIN = 1.0  # m of empty cells around the data
+_LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
+_FLOOR_LEVELS = np.uint64(0b11)  # a column's floor is seen in the two lowest levels
+
+
+def gather_evidence(
+    surfels: Surfels, misses: MissMap, frame: ManhattanFrame, path: Float, config: VoxelConfig
+) -> Evidence:
+    """Turn the maps into the manhattan frame; ``path`` is (M, 3) sensor positions, local frame."""
+    viewpoints = misses.blocks > 0
+    xyz = frame.to_manhattan(surfels.centroid)
+    xyz[:, 2] -= frame.floor_z
+    view = surfels.view @ frame.rotation[:2, :2].T
+    spread = _rotate_variance(surfels.variance, frame.rotation)
+    path_xy = frame.to_manhattan(path)[:, :2] if len(path) else np.zeros((0, 2))
+    cell = config.size
+    origin, shape = _grid(xyz, path_xy, cell)
+    fine = cell / 2
+    hits = hit_columns(xyz, origin, fine, 2 * shape[0], 2 * shape[1])
+    surface = _merge_cells(hits)
+    if viewpoints:
+        rays = misses.column_bits(
+            frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, config.min_misses
+        )
+        many = misses.column_bits(
+            frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, round(1 / config.hit_ratio) + 1
+        )
+        occupied = surface & ~(many & ~_solid(surface))
+        free = rays & ~occupied
+    else:
+        occupied = surface
+        free = _free_between_floor_and_ceiling(surface, frame)
+    return Evidence(
+        frame, xyz, surfels.count, spread, view, surfels.size, origin, fine, hits, cell, free, occupied, path_xy,
+        viewpoints,
+    )  # fmt: skip
+
+
+def _rotate_variance(variance: Float, rotation: Float) -> Float:
+    """Variances along x and y of the manhattan frame from xx, xy, yy of the local one."""
+    xx, xy, yy = variance.T
+    r = rotation[:2, :2]
+    return np.column_stack(
+        [r[k, 0] ** 2 * xx + 2 * r[k, 0] * r[k, 1] * xy + r[k, 1] ** 2 * yy for k in (0, 1)]
+    )
+
+
+def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]:
+    """Origin and shape of the coarse grid; the outermost hundredth of a percent of surfels does not count."""
+    xy = xyz[:, :2]
+    low, high = np.percentile(xy, [0.01, 99.99], axis=0)
+    if len(path):
+        low, high = np.minimum(low, path.min(axis=0)), np.maximum(high, path.max(axis=0))
+    origin = np.floor((low - _MARGIN) / cell) * cell
+    nx, ny = (int(n) for n in np.ceil((high + _MARGIN - origin) / cell))
+    if 4 * nx * ny > _LARGEST:
+        raise NoPlanError(
+            f"The points spread over {nx * cell:.0f} x {ny * cell:.0f} m, too much for cells of {cell:g} m; "
+            "check the unit (--unit), crop the survey, or enlarge voxels.size."
+        )
+    return origin, (ny, nx)
+
+
+def _merge_cells(fine: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Union of each 2 x 2 block of fine columns."""
+    return fine[::2, ::2] | fine[1::2, ::2] | fine[::2, 1::2] | fine[1::2, 1::2]
+
+
+def _solid(surface: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Levels whose neighbour above or below is hit too: no lone return of a mixed pixel."""
+    one = np.uint64(1)
+    return surface & ((surface << one) | (surface >> one))
+
+
+def _free_between_floor_and_ceiling(surface: NDArray[np.uint64], frame: ManhattanFrame) -> NDArray[np.uint64]:
+    top = LEVELS - 1 if frame.ceiling_z is None else round((frame.ceiling_z - frame.floor_z) / LEVEL)
+    return np.asarray(_fill_columns(surface, min(max(top, 3), LEVELS - 1)))
+
+
+@njit(cache=True, nogil=True)
+def _fill_columns(surface, top):  # type: ignore[no-untyped-def]
+    out = np.zeros_like(surface)
+    for iy in range(surface.shape[0]):
+        for ix in range(surface.shape[1]):
+            word = surface[iy, ix]
+            free = np.uint64(0)
+            if word & np.uint64(0b111):  # floor seen: free up to the first surface above it
+                k = 3
+                while k < top - 1 and not (word >> np.uint64(k)) & np.uint64(1):
+                    free |= np.uint64(1) << np.uint64(k)
+                    k += 1
+            if (word >> np.uint64(top - 2)) & np.uint64(
+                0b11111
+            ):  # ceiling seen: free down to the first surface
+                k = top - 3
+                while k > 2 and not (word >> np.uint64(k)) & np.uint64(1):
+                    free |= np.uint64(1) << np.uint64(k)
+                    k -= 1
+            out[iy, ix] = free
+    return out
