@@ -98,7 +98,7 @@ class GuardedExporter:
 
 
 class GuardedClassifier:
-    """A classifier; once it has failed, the paper's classifier takes its place, so that there is still a plan."""
+    """A classifier; once it has failed, the paper's takes its place, so that there is still a plan."""
 
     def __init__(self, inner: RegionClassifier, status: PluginStatus) -> None:
         self._inner, self._status = inner, status

@@ -145,7 +145,8 @@ class PluginRegistry:
     def exporter(self, path: Path, format: str | None = None) -> Exporter:
         """The exporter named ``format``, else the one for the suffix of ``path``.
 
-        Where several share a suffix, the one named like the file wins (``planes.png``), else the first.
+        Where several share a suffix, the one with the file's stem in its name wins, else the first:
+        ``planes.png`` is written by "Planes PNG".
         Raises :class:`UsageError` that lists what there is.
         """
         if format is not None:
@@ -154,7 +155,7 @@ class PluginRegistry:
             wanted = [e for e in self.exporters if path.name.lower().endswith(e.suffixes)]
         if not wanted:
             raise UsageError(self._no_exporter(path, format))
-        return min(wanted, key=lambda e: e.name.lower() != path.stem.lower())
+        return min(wanted, key=lambda e: path.stem.lower() not in e.name.lower().split())
 
     def classifier(self, name: str) -> RegionClassifier:
         """The classifier called ``name``. Raises :class:`UsageError` that lists what there is."""
@@ -187,3 +188,8 @@ class PluginRegistry:
 def default_registry() -> PluginRegistry:
     """The registry of this process; plugins are found on the first call, not before."""
     return PluginRegistry().discover()
+
+
+def find_classifier(name: str) -> RegionClassifier:
+    """The region classifier called ``name``; :class:`UsageError` that lists those there are otherwise."""
+    return default_registry().classifier(name)

@@ -238,14 +238,14 @@ def test_errors_on_purpose_and_of_the_system_do_not_switch_a_plugin_off(error: E
 
 def test_the_right_exporter_is_chosen_by_name_then_stem_then_order() -> None:
     registry = PluginRegistry()
-    for name in ("plan", "planes", "other"):
+    for name in ("PNG", "Planes PNG", "other"):
         exporter = FailingExporter(RuntimeError())
         exporter.name, exporter.suffixes = name, (".png",)
         registry.add(PluginStatus(name, "installed"), [exporter])
-    assert registry.exporter(Path("planes.png")).name == "planes"
-    assert registry.exporter(Path("Some.PNG")).name == "plan"
+    assert registry.exporter(Path("planes.png")).name == "Planes PNG"
+    assert registry.exporter(Path("Some.PNG")).name == "PNG"
     assert registry.exporter(Path("x.dat"), "OTHER").name == "other"
-    with pytest.raises(UsageError, match=r"for 'x\.dat'; known: plan \(\.png\), planes \(\.png\), other"):
+    with pytest.raises(UsageError, match=r"for 'x\.dat'; known: PNG \(\.png\), Planes PNG \(\.png\), other"):
         registry.exporter(Path("x.dat"))
     with pytest.raises(UsageError, match="called 'svg'"):
         registry.exporter(Path("x.png"), "svg")

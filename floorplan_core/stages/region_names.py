@@ -13,13 +13,16 @@ import numpy as np
 
 from floorplan_core.model import Region
 
+ID_PREFIX = "r"  # of a region's id; its number follows
 MIN_SHARE = 0.3  # of the smaller of two regions that the other must cover to be the same one
 
 
 def persist_names(
     previous: Sequence[Region], regions: Sequence[Region], first_unused: int = 1
 ) -> tuple[Region, ...]:
-    """``regions`` with the names of those of ``previous`` that they continue; new ones get the next numbers.
+    """``regions`` with the names and ids of those of ``previous`` that they continue.
+
+    New ones get the next numbers as their names, and ids made of them.
 
     Pairs are matched in the order of falling overlap; ties go to the earlier region of ``previous``, then to
     the earlier of ``regions``. ``first_unused`` is the lowest number that the run never gave to any region;
@@ -30,9 +33,10 @@ def persist_names(
     named = []
     for index, region in enumerate(regions):
         if index in continued:
-            named.append(replace(region, name=previous[continued[index]].name))
+            before = previous[continued[index]]
+            named.append(replace(region, name=before.name, id=before.id))
         else:
-            named.append(replace(region, name=str(fresh)))
+            named.append(replace(region, name=str(fresh), id=f"{ID_PREFIX}{fresh}"))
             fresh += 1
     return tuple(named)
 
