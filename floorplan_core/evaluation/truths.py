@@ -107,7 +107,7 @@ def polygon(exterior: Any, holes: Any = ()) -> Any:
 def _room(index: int, entry: dict[str, Any]) -> TruthRoom:
     seen = entry.get("seen")
     return TruthRoom(
-        name=str(entry.get("name", entry.get("id", index + 1))),
+        name=str(entry.get("name", entry.get("id", index))),
         polygon=polygon(entry["polygon"], entry.get("holes", ())),
         kind=entry.get("kind"),
         entered=bool(entry.get("entered", True)),

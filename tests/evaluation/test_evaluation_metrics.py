@@ -83,7 +83,7 @@ def test_a_missing_room_is_named_as_the_worst():
     plan = perfect_plan()
     del plan["features"][1]
     report = scored(plan)
-    assert (report.rooms.worst, report.rooms.min_iou) == ("2", 0)
+    assert (report.rooms.worst, report.rooms.min_iou) == ("1", 0)
     assert report.rooms_entered.mean_iou == pytest.approx(2 / 3)
     assert report.free_space.recall < 0.85
 
@@ -213,5 +213,5 @@ def test_truth_without_dimensions_gets_two_for_each_room():
     assert report.dimensions_all.total == 8
     assert report.dimensions_all.max_m == pytest.approx(0, abs=1e-9)
     lengths = {m.id: m.truth for m in report.measured}
-    assert lengths["1-x"] == pytest.approx(10)
-    assert math.isclose(lengths["2-y"], 3.8)
+    assert lengths["0-x"] == pytest.approx(10)
+    assert math.isclose(lengths["1-y"], 3.8)
