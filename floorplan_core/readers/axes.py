@@ -25,6 +25,7 @@ LEVEL_WEIGHT = 2.0  # of ln(path's spread along the others / along the axis)
 UPRIGHT_WEIGHT = 3.0  # of the sensor's own vertical, where only one of its axes stays constant
 LEVEL_FLOOR = 0.02  # a path is never more level than this share of its length
 MIN_PATH = 0.03  # of the cloud's extent: a shorter path says nothing about level
+STOREY_SHARE = 0.5  # of the strongest layer: floors and ceilings are alike, table tops are weaker
 UPRIGHT_DECIDES = 0.7  # cosine from which the sensor's vertical says which end is up
 CLUTTER_FROM, CLUTTER_TO = 0.08, 0.35  # shares of the height: above floor and skirting, below table tops
 SENSOR_SHARE = 0.55  # of the height: carried by hand; robots are lower
@@ -113,8 +114,10 @@ def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str) -> 
 
 
 def storey_height(layers: Layers) -> float:
-    """Median of the larger gaps between neighbouring layers, file units; 0 where there is no pair."""
-    gaps = np.diff(layers.positions)
+    """Median of the larger gaps between neighbouring strong layers, file units; 0 where there is no pair."""
+    if len(layers.positions) == 0:
+        return 0.0
+    gaps = np.diff(layers.positions[layers.shares >= STOREY_SHARE * layers.shares.max()])
     return float(np.median(gaps[gaps >= 0.5 * gaps.max()])) if len(gaps) else 0.0
 
 

@@ -25,6 +25,8 @@ from floorplan_core.readers.text_rows import (
 HEAD_BYTES = 1 << 16
 MIN_ROWS = 3  # of the first lines that must be points before a file is called a text cloud
 COMMENTS = ("#", "//", "%")
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+COUNT_LINE = re.compile(r"^\s*[0-9]{1,15}\s*$")
 DECIMAL_COMMA = re.compile(r"^[+-]?\d+,\d+$")
 
 
@@ -87,50 +89,39 @@ def read_form(head: bytes) -> TextForm | None:
     """The layout of the first lines; None where they are no rows of numbers."""
     if b"\x00" in head:
         return None
-    try:
-        text = head.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = head.decode("latin-1")
-        if sum(not (c.isprintable() or c in "\t\r\n") for c in text[:1024]) > 0:
-            return None
-    lines = _complete_lines(text, len(head))
+    offset = len(BYTE_ORDER_MARK) if head.startswith(BYTE_ORDER_MARK) else 0
     names: tuple[str, ...] = ()
     count: int | None = None
-    offset = len(head) - len(text.encode("utf-8")) if head.startswith(b"\xef\xbb\xbf") else 0
-    rows: list[str] = []
-    for line in lines:
-        stripped = line.strip()
-        if not rows and _numbers(stripped) is None:
-            words = _header_words(stripped)
-            if find_xyz(words) is not None:
-                names = words
-            elif stripped.isdigit():
-                count = int(stripped)
-            elif stripped and not stripped.startswith(COMMENTS) and (names or count or len(words) < 2):
-                return None
-            offset += len(line.encode("utf-8"))
-            continue
-        if stripped and not stripped.startswith(COMMENTS):
-            rows.append(stripped)
-    return _form(rows, names, count, offset, whole=len(lines))
+    lines = _complete_lines(head[offset:])
+    for place, line in enumerate(lines):
+        if _numbers(line.strip()) is not None:
+            return _form(lines[place:], names, count, offset)
+        words = _header_words(line)
+        if find_xyz(words) is not None:
+            names = words
+        elif COUNT_LINE.match(line):
+            count = int(line)
+        elif words and not line.lstrip().startswith(COMMENTS):
+            return None
+        offset += len(line)
+    return None
 
 
-def _form(
-    rows: list[str], names: tuple[str, ...], count: int | None, offset: int, whole: int
-) -> TextForm | None:
-    parsed = [_numbers(row) for row in rows]
-    good = [p for p in parsed if p is not None]
-    if len(good) < min(MIN_ROWS, max(1, len(rows))) or 2 * len(good) < len(parsed):
+def _form(lines: list[str], names: tuple[str, ...], count: int | None, offset: int) -> TextForm | None:
+    """The layout where at least half of the lines from the first row on are rows, too."""
+    held = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith(COMMENTS)]
+    good = [form for form in map(_numbers, held) if form is not None]
+    if len(good) < min(MIN_ROWS, len(held)) or 2 * len(good) < len(held):
         return None
     separator, comma, columns = good[0]
     return TextForm(names, columns, separator, comma, count, offset)
 
 
-def _complete_lines(text: str, read: int) -> list[str]:
-    """Lines with their ends; the last one only where the text is not cut off within it."""
-    lines = text.splitlines(keepends=True)
-    whole = read < 4096 or not lines or lines[-1].endswith(("\n", "\r"))
-    return lines if whole else lines[:-1]
+def _complete_lines(head: bytes) -> list[str]:
+    """Lines with their ends, one character a byte; the last one only where the text is not cut off in it."""
+    lines = [line.decode("latin-1") for line in head.splitlines(keepends=True)]
+    cut = len(lines) > 1 and not lines[-1].endswith(("\n", "\r"))
+    return lines[:-1] if cut else lines
 
 
 def _numbers(line: str) -> tuple[str, bool, int] | None:

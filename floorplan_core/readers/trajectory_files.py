@@ -17,6 +17,7 @@ Float = NDArray[np.float64]
 
 SUFFIXES = (".tum", ".txt")
 MARGIN = 0.5  # sensors may stand outside the cloud's bounds by this share of its extent
+MIN_SPREAD = 0.02  # of the cloud's extent: a shorter path is one in another unit, if that fits
 MIN_INSIDE = 0.5  # share of the sensor positions that must lie within these bounds
 RANGE_FACTOR = 1.5  # the median point may be this many times the maximum range away before we call it wrong
 
@@ -61,14 +62,17 @@ def belongs(points: Float, trajectory: Trajectory) -> bool:
 
 
 def fit_unit(points: Float, trajectory: Trajectory, scale: float) -> Trajectory | None:
-    """The trajectory in the file's unit (of ``scale`` metres) where it was written in metres; else None."""
-    in_file_unit = trajectory.T_world_sensor.copy()
-    in_file_unit[:, :3, 3] /= scale
-    if scale == 1.0 or belongs(points, trajectory):
+    """The trajectory in the file's unit (of ``scale`` metres) where it was written in metres; else None.
+
+    It was where its positions only fall among the points, or only spread over them, when taken as metres.
+    """
+    in_metres = trajectory.T_world_sensor.copy()
+    in_metres[:, :3, 3] /= scale
+    converted = Trajectory(trajectory.stamps, in_metres)
+    if scale == 1.0 or not belongs(points, converted):
         return None
-    if share_inside(points, in_file_unit[:, :3, 3])[0] < MIN_INSIDE:
-        return None
-    return Trajectory(trajectory.stamps, in_file_unit)
+    shrunk = np.ptp(trajectory.origins, axis=0).max() < MIN_SPREAD * np.ptp(points, axis=0).max()
+    return converted if shrunk or not belongs(points, trajectory) else None
 
 
 def check_plausible(

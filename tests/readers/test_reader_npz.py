@@ -1,0 +1,117 @@
+"""NPZ and NPY: names, orders and types; pickles, bombs and headers that lie are refused."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+
+import numpy as np
+import pytest
+from reader_clouds import all_points, room
+
+from floorplan_core.config import InputConfig
+from floorplan_core.errors import InputError
+from floorplan_core.readers import open_survey
+
+AS_IT_IS = InputConfig(unit="m", up="z")
+
+
+@pytest.fixture
+def cloud():
+    return room(np.random.default_rng(5), density=8)
+
+
+@pytest.mark.parametrize("save", [np.savez, np.savez_compressed])
+@pytest.mark.parametrize("key", ["points", "xyz", "whatever"])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_npz(tmp_path, cloud, save, key, order):
+    ids = (np.arange(len(cloud)) // 9).astype(np.int64)
+    path = tmp_path / "a.npz"
+    save(path, **{key: np.asarray(cloud, order=order), "scan_id": ids, "note": np.array("hello")})
+    survey = open_survey(path, config=AS_IT_IS)
+    points, found = all_points(survey)
+    np.testing.assert_allclose(points, cloud, atol=1e-5)
+    np.testing.assert_array_equal(found, ids)
+    assert survey.point_count == len(cloud)
+
+
+@pytest.mark.parametrize("dtype", ["<f4", ">f8", "<f2"])
+def test_npy(tmp_path, cloud, dtype):
+    path = tmp_path / "a.npy"
+    np.save(path, np.column_stack([cloud, cloud[:, 0]]).astype(dtype))
+    points, _ = all_points(open_survey(path, config=AS_IT_IS))
+    np.testing.assert_allclose(points, cloud, atol=5e-3 if dtype == "<f2" else 1e-5)
+
+
+def test_pickles_are_refused(tmp_path):
+    path = tmp_path / "evil.npz"
+    np.savez(path, points=np.array([object()] * 3, dtype=object))
+    with pytest.raises(InputError, match="pickled objects"):
+        open_survey(path)
+
+
+@pytest.mark.parametrize("arrays", [{"points": np.zeros((5, 2))}, {"a": np.zeros(5)}, {"s": np.array("x")}])
+def test_no_points(tmp_path, arrays):
+    path = tmp_path / "a.npz"
+    np.savez(path, **arrays)
+    with pytest.raises(InputError, match="no array of points"):
+        open_survey(path)
+
+
+def test_scan_ids_of_another_length(tmp_path, cloud):
+    path = tmp_path / "a.npz"
+    np.savez(path, points=cloud, scan_id=np.arange(3))
+    with pytest.raises(InputError, match="'scan_id' has the shape"):
+        open_survey(path)
+
+
+def header_only(shape):
+    buffer = io.BytesIO()
+    np.lib.format.write_array_header_1_0(buffer, {"shape": shape, "fortran_order": False, "descr": "<f8"})
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("packed", [True, False])
+def test_absurd_shapes(tmp_path, packed):
+    data = header_only((10**12, 3)) + b"\x00" * 512
+    path = tmp_path / ("a.npz" if packed else "a.npy")
+    if packed:
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("points.npy", data)
+    else:
+        path.write_bytes(data)
+    with pytest.raises(InputError, match="truncated"):
+        open_survey(path)
+
+
+def test_bombs_are_refused(tmp_path):
+    path = tmp_path / "bomb.npz"
+    rows = (300 << 20) // 24
+    with (
+        zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive,
+        archive.open("points.npy", "w") as member,
+    ):
+        member.write(header_only((rows, 3)))
+        for _ in range(300):
+            member.write(bytes(1 << 20))
+    with pytest.raises(InputError, match="refused"):
+        open_survey(path)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9, 0.99])
+def test_truncated(tmp_path, cloud, share):
+    path = tmp_path / "a.npz"
+    np.savez_compressed(path, points=cloud)
+    path.write_bytes(path.read_bytes()[: int(path.stat().st_size * share)])
+    with pytest.raises(InputError, match=r"a\.npz"):
+        open_survey(path)
+
+
+def test_flipped_bytes_are_noticed(tmp_path, cloud):
+    path = tmp_path / "a.npz"
+    np.savez_compressed(path, points=cloud)
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 0xFF
+    path.write_bytes(bytes(data))
+    with pytest.raises(InputError, match="damaged"):
+        open_survey(path)

@@ -1,0 +1,100 @@
+"""Text: separators, decimal commas, headers, counts, comments and columns that are no numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reader_clouds import Remembering, all_points, room
+
+from floorplan_core.config import InputConfig
+from floorplan_core.errors import InputError
+from floorplan_core.readers import open_survey
+
+AS_IT_IS = InputConfig(unit="m", up="z")
+
+
+@pytest.fixture
+def cloud():
+    return np.round(room(np.random.default_rng(4), density=8), 4)
+
+
+def lines(cloud, separator, decimal=".", extra=""):
+    rows = (separator.join(f"{v:.4f}".replace(".", decimal) for v in p) + extra for p in cloud)
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "make"),
+    [
+        ("a.xyz", lambda c: lines(c, " ")),
+        ("a.txt", lambda c: lines(c, "\t")),
+        ("a.csv", lambda c: lines(c, ",")),
+        ("a.csv", lambda c: lines(c, ", ")),
+        ("a.csv", lambda c: "x,y,z\n" + lines(c, ",")),
+        ("a.csv", lambda c: "X;Y;Z;Class\n" + lines(c, ";", ",", ";wall")),
+        ("a.csv", lambda c: lines(c, ";")),
+        ("a.txt", lambda c: lines(c, " ", ",")),
+        ("a.asc", lambda c: "//X Y Z R G B\n" + lines(c, " ", extra=" 10 20 30")),
+        ("a.pts", lambda c: f"{len(c)}\n" + lines(c, " ", extra=" -1200 10 20 30")),
+        ("a.pts", lambda c: lines(c, " ").replace("\n", "\r\n")),
+        ("a.xyz", lambda c: "# a comment\n\n" + lines(c, "  ") + "\n\n"),
+        ("a.xyz", lambda c: "\ufeff" + lines(c, " ")),
+        ("a.xyz", lambda c: lines(c, " ").rstrip("\n")),
+        ("a.unknown", lambda c: lines(c, " ")),
+    ],
+)
+def test_round_trip(tmp_path, cloud, name, make):
+    path = tmp_path / name
+    path.write_text(make(cloud), encoding="utf-8", newline="")
+    points, _ = all_points(open_survey(path, config=AS_IT_IS))
+    assert len(points) == len(cloud)
+    np.testing.assert_allclose(points, cloud, atol=1e-5)
+
+
+def test_columns_by_name(tmp_path, cloud):
+    path = tmp_path / "named.csv"
+    rows = (f"{k // 5},{p[2]},{p[0]},{p[1]},{0.5 * k}" for k, p in enumerate(cloud))
+    path.write_text("scan_id,z,x,y,time\n" + "\n".join(rows))
+    survey = open_survey(path, config=AS_IT_IS)
+    points, ids = all_points(survey)
+    np.testing.assert_allclose(points, cloud, atol=1e-5)
+    np.testing.assert_array_equal(ids, np.arange(len(cloud)) // 5)
+    stamps = np.concatenate([c.stamps for c in survey.chunks()])
+    np.testing.assert_allclose(stamps, 0.5 * np.arange(len(cloud)))
+
+
+def test_lines_that_are_no_points_are_counted(tmp_path, cloud):
+    path = tmp_path / "dirty.xyz"
+    path.write_text(lines(cloud[:50], " ") + "1 2\nhello there world\n" + lines(cloud[50:], " "))
+    seen = Remembering()
+    points, _ = all_points(open_survey(path, config=AS_IT_IS, observer=seen))
+    assert len(points) == len(cloud)
+    assert any("2 lines of dirty.xyz hold no point" in w for w in seen.warnings)
+
+
+def test_a_large_file_is_read_in_blocks(tmp_path, cloud, monkeypatch):
+    from floorplan_core.readers import text_rows
+
+    monkeypatch.setattr(text_rows, "BLOCK_BYTES", 777)
+    path = tmp_path / "a.xyz"
+    path.write_text(lines(cloud, " "))
+    survey = open_survey(path, config=AS_IT_IS)
+    assert sum(1 for _ in survey.chunks()) > 10
+    np.testing.assert_allclose(all_points(survey)[0], cloud, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "text", ["just some words\nand more words\nof no use\n", "1 2\n3 4\n5 6\n", "\n\n\n"]
+)
+def test_text_that_is_no_cloud(tmp_path, text):
+    path = tmp_path / "notes.txt"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"notes.txt"):
+        open_survey(path)
+
+
+def test_a_trajectory_is_no_cloud(tmp_path):
+    path = tmp_path / "trajectory.tum"
+    path.write_text("0 1 2 3 0 0 0 1\n" * 20)
+    with pytest.raises(InputError, match="is a trajectory, not a point cloud"):
+        open_survey(path)
