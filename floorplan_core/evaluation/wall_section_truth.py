@@ -34,8 +34,7 @@ def parse_wall_sections(document: dict[str, Any], source: str) -> Truth:
     polygons = [_without_others(i, polygons, faces) for i in range(len(polygons))]
     doors = tuple(_joined(d, polygons) for axis in (0, 1) for d in doorways(high, low, axis))
     rooms = tuple(
-        TruthRoom(str(r["id"]), p, _kind(i, doors))
-        for i, (r, p) in enumerate(zip(document["rooms"], polygons, strict=True))
+        _room(i, r, p, doors) for i, (r, p) in enumerate(zip(document["rooms"], polygons, strict=True))
     )
     return Truth(source, rooms, doors, room_dimensions(rooms), wall=WALL_THICKNESS[1])
 
@@ -210,3 +209,9 @@ def _joined(door: TruthDoor, polygons: list[Any]) -> TruthDoor:
 def _kind(index: int, doors: tuple[TruthDoor, ...]) -> str:
     onto = sum(index in d.joins for d in doors if d.required)
     return "corridor" if onto >= CORRIDOR_DOORS else "room"
+
+
+def _room(index: int, entry: dict[str, Any], polygon: Any, doors: tuple[TruthDoor, ...]) -> TruthRoom:
+    """A room onto which nothing opens can neither be entered nor seen."""
+    reachable = any(index in door.joins for door in doors)
+    return TruthRoom(str(entry["id"]), polygon, _kind(index, doors), reachable, None if reachable else 0.0)

@@ -128,6 +128,7 @@ def test_hospital_truth():
     assert lobby.kind == "corridor"
     assert lobby.polygon.area == pytest.approx(559, rel=0.01)
     assert len(lobby.polygon.interiors) == 3
+    assert [r.name for r in result.rooms if r.exposure == "hidden"] == ["26", "27"]  # closed stair wells
     required = [d for d in result.doors if d.required]
     assert len(required) == 26
     assert all(0.9 < d.width < 1.7 for d in required)
