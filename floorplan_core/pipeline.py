@@ -7,9 +7,9 @@ plan        frame, voxel columns, segments, planes, doors, universe, candidates,
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,7 @@ from floorplan_core.stages.layout_planes import find_planes
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
-from floorplan_core.stages.region_names import persist_names
+from floorplan_core.stages.region_names import next_number, persist_names
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import frontier_planes
@@ -68,6 +68,7 @@ class FloorPlanner:
         self._misses = MissMap(self.config.voxels.size)
         self._path: list[Float] = []
         self._names: tuple[Region, ...] = ()
+        self._unused = 1  # the lowest number that no region of the run ever had
         self._pool = ThreadPoolExecutor(1)
         self.seconds: dict[str, float] = {}
 
@@ -111,9 +112,13 @@ class FloorPlanner:
             self._path.append(origins)
         self.seconds["integrate"] = self.seconds.get("integrate", 0.0) + time.perf_counter() - began
 
-    def plan(self) -> FloorPlan:
-        """The floor plan of all that was integrated so far; raises :class:`NoPlanError` where there is none."""
-        if len(self._surfels) < MIN_SURFELS:
+    def plan(self, given: Sequence[object] = ()) -> FloorPlan:
+        """The floor plan of all that was integrated so far; raises :class:`NoPlanError` where there is none.
+
+        :param given: results of the first stages of an earlier run, in their order; they are taken as they are
+            (:mod:`floorplan_core.restart`).
+        """
+        if not given and len(self._surfels) < MIN_SURFELS:
             raise NoPlanError(
                 f"Too little to make a plan of: {self._surfels.points} points in {len(self._surfels)} voxels of "
                 f"{self._surfels.size:g} m; check the unit (--unit) or give more scans."
@@ -121,9 +126,12 @@ class FloorPlanner:
         config, warnings = self.config, list[str]()
         seconds = {"integrate": self.seconds.get("integrate", 0.0)}
         path = np.concatenate(self._path) if self._path else np.zeros((0, 3))
+        earlier = iter(given)
 
         def stage(name: str, work: Callable[[], T]) -> T:
             self.observer.check_cancelled()
+            if (known := next(earlier, None)) is not None:
+                return cast(T, known)
             self.observer.stage_started(name)
             began = time.perf_counter()
             result = work()
@@ -160,8 +168,8 @@ class FloorPlanner:
             )
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config))
         if self._names:
-            regions, doors = _rename(self._names, regions, doors)
-        self._names = regions
+            regions, doors = _rename(self._names, regions, doors, self._unused)
+        self._names, self._unused = regions, max(self._unused, next_number(regions))
         left = int(cover.uncovered.sum()) * grid.cell**2
         if left > 1.0:
             warnings.append(
@@ -218,12 +226,12 @@ def _cover_the_rest(
 
 
 def _rename(
-    previous: tuple[Region, ...], regions: tuple[Region, ...], doors: tuple[Door, ...]
+    previous: tuple[Region, ...], regions: tuple[Region, ...], doors: tuple[Door, ...], unused: int
 ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
     """Names and ids that persist from the plan before."""
     from dataclasses import replace
 
-    named = persist_names(previous, regions)
+    named = persist_names(previous, regions, unused)
     new_id = {old.id: new.id for old, new in zip(regions, named, strict=True)}
     return named, tuple(replace(d, connects=tuple(new_id[c] for c in d.connects)) for d in doors)
 

@@ -37,11 +37,18 @@ OutFolder = Annotated[
 ]
 
 
-def resolve_config(file: Path | None, assignments: list[str] | None) -> Config:
-    """The settings of ``--config`` (else the defaults) with every ``--set`` applied."""
+def resolve_config(file: Path | None, assignments: list[str] | None, stages: Path | None = None) -> Config:
+    """The settings of ``--config`` (else of the run kept in ``stages``, else the defaults) with every ``--set``."""
     from floorplan_core.config import Config
 
-    config = Config() if file is None else Config.load(file)
+    if file is not None:
+        config = Config.load(file)
+    elif stages is not None:
+        from floorplan_core.restart import saved_config
+
+        config = saved_config(stages)
+    else:
+        config = Config()
     return config.with_values(dict(_split(text) for text in assignments or ()))
 
 

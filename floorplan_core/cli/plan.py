@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 PLAN_FILE = "plan.floorplan"
 DRAWINGS = ("plan.geojson", "plan.svg")
 PICTURES = ("planes.png", "occupancy.png", "plan.png")
-STAGE_FOLDER = "stages"
 
 
 def plan(
@@ -41,6 +40,10 @@ def plan(
     save_stages: Annotated[
         bool, typer.Option("--save-stages", help="Keep what every stage made, in DIR/stages.")
     ] = False,
+    from_stage: Annotated[
+        str | None,
+        typer.Option("--from", metavar="STAGE", help="INPUT is a DIR with stages: begin again at this one."),
+    ] = None,
     config: ConfigFile = None,
     set_: Assignments = None,
     as_json: JsonFlag = False,
@@ -52,13 +55,17 @@ def plan(
 
     started = perf_counter()
     console = Console(context, as_json=as_json, quiet=quiet)
-    settings = resolve_config(config, set_)
+    stages = _stages_of(survey) if from_stage else None
+    settings = resolve_config(config, set_, stages)
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
-        made, clock = make_plan(survey, trajectory, settings, observer)
+        if from_stage and stages:
+            made, clock = replan(stages, from_stage, settings, observer)
+        else:
+            made, clock = make_plan(survey, trajectory, settings, observer)
         names = DRAWINGS + (PICTURES if pictures else ())
         clock["export"] = write_plan(made, staging, names, observer)
         if save_stages:
-            _save_stages(observer, staging / STAGE_FOLDER)
+            _save_stages(made, observer, staging)
         clock["total"] = perf_counter() - started
         report = _write_report(made, clock, observer, staging)
         files = sorted(str(p.relative_to(staging)) for p in staging.rglob("*") if p.is_file())
@@ -83,6 +90,25 @@ def make_plan(
     from floorplan_core.pipeline import process  # after opening: bad input is answered at once
 
     return process(timed_chunks(reconstruction, clock), config, observer), clock
+
+
+def replan(
+    stages: Path, from_stage: str, config: Config, observer: CommandObserver
+) -> tuple[FloorPlan, dict[str, float]]:
+    """Begin again at a stage; returns the plan and the seconds spent in reading what came before."""
+    from floorplan_core.restart import restart
+
+    started = perf_counter()
+    plan = restart(stages, from_stage, config, observer)
+    return plan, {"read": perf_counter() - started - sum(plan.seconds.values())}
+
+
+def _stages_of(survey: Path) -> Path:
+    """The folder of stages in (or at) ``survey``."""
+    from floorplan_core.restart import STAGE_FOLDER
+
+    inside = survey / STAGE_FOLDER
+    return inside if inside.is_dir() else survey
 
 
 def open_input(
@@ -152,14 +178,12 @@ def _export(plan: FloorPlan, path: Path, observer: CommandObserver) -> None:
         observer.warning(str(error))
 
 
-def _save_stages(observer: CommandObserver, folder: Path) -> None:
-    from floorplan_core import intermediates
+def _save_stages(plan: FloorPlan, observer: CommandObserver, staging: Path) -> None:
     from floorplan_core.files import writing
+    from floorplan_core.restart import STAGE_FOLDER, save_stages
 
-    with writing(folder.parent):
-        folder.mkdir()
-        for stage, result in observer.results.items():
-            intermediates.save(result, folder / f"{stage}.stage")
+    with writing(staging.parent / STAGE_FOLDER):
+        save_stages(observer.results, plan, staging / STAGE_FOLDER)
 
 
 def _write_report(
