@@ -21,6 +21,22 @@ OTHER = (232, 232, 226)
 FOUND, MISSED, FALSE, OPTIONAL = (30, 140, 80), (205, 40, 60), (240, 140, 0), (150, 156, 164)
 LOST, HIDDEN = (252, 226, 226), (240, 240, 238)
 FREE, WALL = (206, 232, 208), (90, 60, 60)
+Colour = tuple[int, int, int]
+PLAN_LEGEND = (
+    ("plan", INK),
+    ("truth", TRUTH),
+    ("door found", FOUND),
+    ("door missed", MISSED),
+    ("false door", FALSE),
+    ("shut door, window", OPTIONAL),
+    ("floor missed: pink, never seen: grey, predicted: hatched", GUESS),
+)
+OBSERVED_LEGEND = (
+    ("plan and its doors", INK),
+    ("carved free by the sensor", FOUND),
+    ("surface above furniture", WALL),
+    ("predicted: hatched", GUESS),
+)
 
 
 class Canvas:
@@ -42,7 +58,7 @@ class Canvas:
         y = (self.top - points[:, 1]) * self.scale + (MARGIN + HEADER) * OVERSAMPLING
         return list(zip(x.tolist(), y.tolist(), strict=True))
 
-    def polygon(self, shape: Any, fill: tuple[int, int, int]) -> None:
+    def polygon(self, shape: Any, fill: Colour) -> None:
         """Filled; holes keep what is under them."""
         mask = Image.new("1", self.image.size)
         draw = ImageDraw.Draw(mask)
@@ -51,12 +67,12 @@ class Canvas:
             draw.polygon(self.pixels(hole.coords), fill=0)
         self.image.paste(fill, (0, 0), mask)
 
-    def outline(self, shape: Any, color: tuple[int, int, int], width: float) -> None:
+    def outline(self, shape: Any, color: Colour, width: float) -> None:
         """All rings of a polygon."""
         for ring in (shape.exterior, *shape.interiors):
             self.line(ring.coords, color, width)
 
-    def line(self, xy: Any, color: tuple[int, int, int], width: float) -> None:
+    def line(self, xy: Any, color: Colour, width: float) -> None:
         """A polyline, ``width`` in finished pixels."""
         self.draw.line(self.pixels(xy), fill=color, width=round(width * OVERSAMPLING), joint="curve")
 
@@ -93,7 +109,7 @@ def draw_overlay(plan: PlanFile, truth: Truth, title: str, remark: str, path: Pa
         canvas.outline(room.polygon, TRUTH, 1.0 if room.exposure == "entered" else 0.6)
     _doors(canvas, local, truth)
     _names(canvas, local)
-    _header(canvas, title, remark)
+    _header(canvas, title, remark, PLAN_LEGEND if truth.observed is None else OBSERVED_LEGEND)
     _scale_bar(canvas)
     canvas.save(path)
 
@@ -149,10 +165,8 @@ def _doors(canvas: Canvas, plan: PlanFile, truth: Truth) -> None:
         color = FOUND if i in found and door.kind != "window" else MISSED if door.required else OPTIONAL
         canvas.line([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)], color, 1.4)
     for i, door in enumerate(plan.doors):
-        if truth.rooms:
-            canvas.line(door.line, FOUND if i in right else FALSE, 4.0)
-        else:
-            canvas.line(door.line, FALSE, 4.0)
+        known = INK if truth.observed is not None else FALSE  # carved space knows no doors
+        canvas.line(door.line, FOUND if i in right else known, 4.0)
 
 
 def _names(canvas: Canvas, plan: PlanFile) -> None:
@@ -162,19 +176,11 @@ def _names(canvas: Canvas, plan: PlanFile) -> None:
         canvas.text((x / OVERSAMPLING, y / OVERSAMPLING), region.name, 15, anchor="mm")
 
 
-def _header(canvas: Canvas, title: str, remark: str) -> None:
+def _header(canvas: Canvas, title: str, remark: str, legend: tuple[tuple[str, Colour], ...]) -> None:
     canvas.text((MARGIN, 22), title, 22)
     canvas.text((MARGIN, 54), remark, 14, GUESS)
     x = MARGIN
-    for word, color in (
-        ("plan", INK),
-        ("truth", TRUTH),
-        ("door found", FOUND),
-        ("door missed", MISSED),
-        ("false door", FALSE),
-        ("shut door, window", OPTIONAL),
-        ("floor missed: pink, never seen: grey, predicted: hatched", GUESS),
-    ):
+    for word, color in legend:
         canvas.text((x, 78), word, 13, color)
         x += 24 + round(canvas.draw.textlength(word, font=ImageFont.load_default(size=13)))
 
