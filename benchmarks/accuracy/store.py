@@ -22,17 +22,19 @@ sensor, exploration, furniture, noise and drift together; settings are tuned on 
 only, so the *held out* column counts. A number that misses its target carries a cross. Every survey weighs
 the same in a mean.
 
-- **dimension error**: the plan's own distance between two wall faces against the truth's, in rooms that were
-  entered. A line is shot both ways from the middle of the true dimension to the boundary of the region that holds
-  it; it counts as measured (*share*) where both ends lie within 1 m of the true faces.
-- **room F1, IoU**: regions and true rooms (interior faces) matched one to one by largest total intersection over
-  union; found at 0.5; the mean IoU counts a missed room as 0. *Entered*: the sensor was inside and saw at least
-  half of the floor; *glimpsed*: it saw at least 15 %; rooms seen less are neither expected nor forbidden.
-- **doors**: same wall (middles within 0.5 m across it) and overlapping along it by half of the narrower one.
-  Expected are open doors of rooms that were entered; shut ones may be found or not; a window called a door is
-  wrong. Width errors are over the doors found.
-- **free space**: area of all regions against the floor of all rooms; *outside* is beyond the outer walls. For
-  `octomap_fr079_3d` it is the share of cells, among those that the real sensor carved free or saw as wall.
+- **dimension error**: the plan's own distance between two wall faces against the truth's, in rooms that
+  were entered. A line is shot both ways from the middle of the true dimension to the boundary of the region
+  that holds it; it counts as measured (*share*) where both ends lie within 1 m of the true faces.
+- **room F1, IoU**: regions and true rooms (interior faces) matched one to one by largest total intersection
+  over union; found at 0.5; the mean IoU counts a missed room as 0. *Entered*: the sensor was inside and saw
+  at least half of the floor; *glimpsed*: it saw at least 15 %; rooms seen less are neither expected nor
+  forbidden.
+- **doors**: same wall (middles within 0.5 m across it) and overlapping along it by half of the narrower
+  one. Expected are open doors of rooms that were entered; shut ones may be found or not; a window called a
+  door is wrong. Width errors are over the doors found.
+- **free space**: area of all regions against the floor of all rooms; *outside* is beyond the outer walls.
+  For `octomap_fr079_3d` it is the share of cells, among those that the real sensor carved free or saw as
+  wall.
 - **predicted area right**: share of the floor that was predicted, not seen, which is floor in truth.
 """
 
