@@ -17,6 +17,7 @@ DENSITY = {"none": 0.0, "normal": 1.0, "heavy": 2.2}
 PASSAGE = 0.06  # m between two pieces at least
 DOOR_ZONE = 1.0  # m kept clear on both sides of a door
 WALK = 0.75  # m that stays free beside a piece that stands in the open
+ESCAPE = 1.0  # m of a corridor's width that stays free
 TRIES = 12
 FREE_AT_WALL = 0.15  # share of free-standing pieces that stand at a wall all the same
 IN_CORNER = 0.35  # share of pieces that are pushed into a corner
@@ -126,6 +127,11 @@ def _place(index: int, floor: _Floor, piece: Piece, rng: np.random.Generator) ->
         solids = _turned(piece, back, rng)
         solids = solids + _shift(_flat_hull(solids)[2:], rect, back if at_wall else None, piece, rng)
         hull = _flat_hull(solids)
+        if (
+            floor.space.kind == "corridor"
+            and (rect[2:] - rect[:2]).min() - (hull[2:] - hull[:2]).min() < ESCAPE
+        ):
+            continue
         if not floor.fits(hull, PASSAGE if at_wall else WALK, whole=not at_wall):
             continue
         if at_wall and (floor.shaded(hull, solids[:, 5].max()) or not floor.backed(hull, back, 2 * PASSAGE)):

@@ -21,7 +21,7 @@ _FACES = np.array(
 
 def dilated(building: Building) -> Float:
     """(N, 4) the spaces' rectangles grown by the exterior wall: their union is the footprint."""
-    return building.rects + building.exterior_wall * np.array([-1, -1, 1, 1])
+    return np.round(building.rects + building.exterior_wall * np.array([-1, -1, 1, 1]), 4)
 
 
 def wall_rectangles(building: Building) -> Float:
@@ -81,7 +81,7 @@ def building_solids(building: Building, furnished: bool = True) -> Float:
 
 def merged_footprint(building: Building) -> Float:
     """(K, 4) disjoint rectangles that tile the footprint."""
-    outer = np.round(dilated(building), 4)
+    outer = dilated(building)
     xs, ys = np.unique(outer[:, [0, 2]]), np.unique(outer[:, [1, 3]])
     mask = np.zeros((len(ys) - 1, len(xs) - 1), dtype=bool)
     for x0, y0, x1, y1 in outer:

@@ -60,7 +60,7 @@ class BuildingSpec:
     room_depth: float = bounded(5.0, 2.5, 15.0, "mean depth of rooms, m")
     interior_wall: float | None = bounded(None, 0.05, 0.4, "thickness of interior walls, m")
     exterior_wall: float | None = bounded(None, 0.1, 0.6, "thickness of exterior walls, m")
-    height: float | None = bounded(None, 2.3, 4.5, "floor to ceiling, m")
+    height: float | None = bounded(None, 2.4, 4.5, "floor to ceiling, m")
     furniture: str = chosen("normal", FURNITURE, "density of furniture")
     shut_doors: float = bounded(0.12, 0, 1, "share of doors that are shut")
     door_leaves: float = bounded(0.5, 0, 1, "share of open doors whose leaf stands in the room")
