@@ -20,7 +20,17 @@ from floorplan_core.exporters.svg_canvas import text_width
 Float = NDArray[np.float64]
 
 LEADING = 1.32  # line height over font size
-SHRINK = (1.0, 0.86, 0.74, 0.64)
+SMALLEST = 0.64  # of the wanted size
+# Whether the text is turned, and its size: level text may shrink a little before it is turned.
+TRIES = (
+    (False, 1.0),
+    (False, 0.87),
+    (False, 0.76),
+    (True, 1.0),
+    (True, 0.82),
+    (False, SMALLEST),
+    (True, SMALLEST),
+)
 GRID = 13  # candidate spots per side of the region's bounds
 
 
@@ -56,32 +66,30 @@ def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Pl
     """
     centre = shapely.get_coordinates(free.centroid)
     shapely.prepare(free)
-    at_once = _try(tuple(lines), free, centre, pad)
+    at_once = _try(tuple(lines), free, centre, pad, False)
     if at_once is not None:
         return at_once
     spots = _spots(free, free if floor is None else floor, centre)
     for count in range(len(lines), 0, -1):
-        for shrink in SHRINK:
+        for turned, shrink in TRIES:
             scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
-            found = _try(scaled, free, spots, pad * shrink)
+            found = _try(scaled, free, spots, pad * shrink, turned)
             if found is not None:
                 return found
-    smallest = tuple(Line(w.text, w.size * SHRINK[-1], w.style) for w in lines[:1])
+    smallest = tuple(Line(w.text, w.size * SMALLEST, w.style) for w in lines[:1])
     x, y = _pole(free)
     return Placed(smallest, x, y, False, False)
 
 
-def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float) -> Placed | None:
+def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float, turned: bool) -> Placed | None:
     width, height = block_size(lines)
-    for turned in (False, True):
-        w, h = (height, width) if turned else (width, height)
-        half = np.array([w / 2 + pad, h / 2 + pad])
-        low, high = spots - half, spots + half
-        fits = shapely.contains_properly(free, shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-        if fits.any():
-            x, y = spots[int(np.argmax(fits))].tolist()
-            return Placed(lines, x, y, turned, True)
-    return None
+    half = np.array([height, width] if turned else [width, height]) / 2 + pad
+    low, high = spots - half, spots + half
+    fits = shapely.contains_properly(free, shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+    if not fits.any():
+        return None
+    x, y = spots[int(np.argmax(fits))].tolist()
+    return Placed(lines, x, y, turned, True)
 
 
 def _spots(free: Any, floor: Any, home: Float) -> Float:

@@ -16,7 +16,7 @@ from PIL import Image
 from floorplan_core.exporters.palette import rgb
 from floorplan_core.exporters.placement import LEADING, Line, block_size, place
 from floorplan_core.exporters.png_canvas import (
-    STRIP,
+    ROW,
     Colour,
     View,
     draw_caption,
@@ -103,7 +103,7 @@ def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
         (GREEN, points.facing >= 2),
     ):
         _dots(pixels, view, points.xy[chosen], colour)
-    image, draw = finish(pixels, WHITE)
+    image, draw = finish(pixels, view, WHITE)
     count = [sum(p.facing.axis == axis for p in plan.planes) for axis in (0, 1)]
     entries = [(f"x planes ({count[0]})", RED), (f"y planes ({count[1]})", GREEN), ("other points", DIM)]
     _draw_strip(draw, view, entries, INK)
@@ -118,7 +118,7 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
         np.uint8
     )
     colours = np.array([BLACK, FREE_KNOWN, FREE_GUESSED], dtype=np.uint8)
-    image, draw = finish(colours[view.sample(state, grid.origin, grid.cell, 0)], BLACK)
+    image, draw = finish(colours[view.sample(state, grid.origin, grid.cell, 0)], view, BLACK)
     for region in plan.regions:
         draw_rings(draw, view, region.polygon, OUTLINE, WALL_LINE - 1)
     entries = [("free, known", FREE_KNOWN), ("free, speculated", FREE_GUESSED), ("plan", OUTLINE)]
@@ -129,7 +129,7 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
 def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (c)."""
     view = view or fit_view(plan_bounds(plan))
-    image, draw = finish(_floors(plan, view), WHITE)
+    image, draw = finish(_floors(plan, view), view, WHITE)
     for region in plan.regions:
         _draw_sides(draw, view, region)
     for door in plan.doors:
@@ -144,8 +144,8 @@ def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
 
 
 def _draw_strip(draw: Any, view: View, entries: list[tuple[str, Any]], ink: Colour) -> None:
-    draw_caption(draw, entries, view.height + STRIP / 2, ink)
-    draw_scale_bar(draw, view, view.width - 24, view.height + STRIP / 2 + 10, ink)
+    draw_caption(draw, entries, view.height + 10 + ROW / 2, ink)
+    draw_scale_bar(draw, view, view.width - 24, view.height + view.strip - 10 - ROW / 2 + 10, ink)
 
 
 def _dots(pixels: NDArray[np.uint8], view: View, xy: NDArray[Any], colour: Colour) -> None:

@@ -25,7 +25,8 @@ Bounds = tuple[float, float, float, float]
 
 LONG_SIDE = 1600  # pixels
 BORDER = 1.0  # metres around the plan
-STRIP = 64  # pixels under the plan, for scale bar and caption
+ROW = 44  # pixels: height of a row of the strip under the plan
+NARROW = 1100  # pixels: narrower pictures have caption and scale bar in two rows
 BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres
 BAR_SHARE = 0.2  # of the picture's width that the scale bar may take
 SUPERSCRIPT, RAISE, CAP = 0.62, 0.32, 0.72  # of the font size: a raised 2, its lift; height of capitals
@@ -41,6 +42,11 @@ class View:
     scale: float  # pixels for a metre
     width: int  # pixels
     height: int  # pixels, without the strip
+
+    @property
+    def strip(self) -> int:
+        """Pixels under the plan for caption and scale bar."""
+        return 20 + ROW * (2 if self.width < NARROW else 1)
 
     @property
     def origin(self) -> Float:
@@ -90,9 +96,9 @@ def paper(view: View, colour: Colour) -> NDArray[np.uint8]:
     return np.full((view.height, view.width, 3), colour, dtype=np.uint8)
 
 
-def finish(pixels: NDArray[np.uint8], ground: Colour, strip: int = STRIP) -> tuple[Image.Image, Any]:
+def finish(pixels: NDArray[np.uint8], view: View, ground: Colour) -> tuple[Image.Image, Any]:
     """Turn the array the right way up, add the strip below; the picture and its drawing context."""
-    below = np.full((strip, pixels.shape[1], 3), ground, dtype=np.uint8)
+    below = np.full((view.strip, view.width, 3), ground, dtype=np.uint8)
     image = Image.fromarray(np.concatenate([pixels[::-1], below]))
     return image, ImageDraw.Draw(image)
 

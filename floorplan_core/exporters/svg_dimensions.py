@@ -46,11 +46,12 @@ def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region]) 
         for first, second in ((TOP, BOTTOM), (LEFT, RIGHT)):
             one, other = (chain(regions, side.axis, side.sign) for side in (first, second))
             _draw_row(canvas, sheet, first, one, CHAIN_ROW, TEXT)
-            if differs(other, one):
+            start, end = overall(regions, 1 - first.axis)
+            total = [Span(start, end, float("nan"))]
+            if differs(other, [*one, *total]):
                 _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT)
             if len(one) > 1:
-                start, end = overall(regions, 1 - first.axis)
-                _draw_row(canvas, sheet, first, [Span(start, end, float("nan"))], OVERALL_ROW, TOTAL)
+                _draw_row(canvas, sheet, first, total, OVERALL_ROW, TOTAL)
 
 
 def _draw_row(

@@ -18,6 +18,8 @@ from floorplan_core.model import FREE, Door, FloorPlan, Region, RegionSide
 from floorplan_core.model.floor_plan import regions_mask
 
 NOMINAL = 0.15  # metres: thickness of a wall of which only one face is known
+TOUCHING = 0.05  # metres: regions nearer than this leave no room for a wall
+PARTY = 0.1  # metres: drawn thickness of a wall between regions that touch
 PROBE = 0.02  # metres: how far beside a side we look for its inside
 MIN_PREDICTED = 0.3  # m2: smaller predicted patches are clutter in a drawing (they stay in plan.geojson)
 
@@ -62,7 +64,22 @@ def _solid(regions: Sequence[Region], thickness: float, thickest: float) -> Any:
         shapely.buffer(floor, thickest / 2, join_style="mitre"), -thickest / 2, join_style="mitre"
     )
     ring = shapely.buffer(floor, thickness, join_style="mitre")
-    return shapely.union(closed, ring).difference(floor)
+    between = shapely.union(closed, ring).difference(floor)
+    return shapely.union_all([between, *_party_walls([r.polygon for r in regions])])
+
+
+def _party_walls(polygons: Sequence[Any]) -> list[Any]:
+    """A band along the edges at which two regions touch: the plan has no thickness there, the drawing needs one."""
+    tree = shapely.STRtree(list(polygons))
+    bands = []
+    for i, j in tree.query(
+        np.array(polygons, dtype=object), predicate="dwithin", distance=TOUCHING
+    ).T.tolist():
+        if i < j:
+            other = shapely.buffer(polygons[j], TOUCHING, join_style="mitre")
+            edge = shapely.line_merge(shapely.intersection(polygons[i].boundary, other))
+            bands.append(shapely.buffer(edge, PARTY / 2, cap_style="square", join_style="mitre"))
+    return bands
 
 
 def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
@@ -107,6 +124,7 @@ def _strips(sides: Sequence[tuple[Region, RegionSide]], thickness: float, thicke
     polygons = np.array([region.polygon for region, _ in sides], dtype=object)
     out[shapely.contains_xy(polygons, probe[:, 0], probe[:, 1])] *= -1
     corner = thickness * along
+    a, b = a - PARTY * out, b - PARTY * out  # party walls reach a little into the floor
     deep = np.stack([a, b, b + thickest * out, a + thickest * out], axis=1)
     a, b = a - corner, b + corner
     around = np.stack([a, b, b + thickness * out, a + thickness * out], axis=1)
@@ -118,8 +136,8 @@ def predicted_cells(plan: FloorPlan) -> NDArray[np.bool_]:
     from scipy.ndimage import label
 
     unseen = regions_mask(plan.regions, plan.grid) & (plan.grid.states != FREE)
-    core = ~_grown(~unseen)  # what is at least three cells wide
-    patches, _ = label(_grown(_grown(core)) & unseen)
+    core = ~_grown(_grown(~unseen))  # what is at least five cells wide: no wall, no table edge
+    patches, _ = label(_grown(_grown(_grown(core))) & unseen)
     sizes = np.bincount(patches.ravel()) * plan.grid.cell**2
     sizes[0] = 0.0
     large: NDArray[np.bool_] = sizes[patches] >= MIN_PREDICTED

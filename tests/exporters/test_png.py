@@ -13,7 +13,7 @@ from PIL import Image
 from floorplan_core.errors import UsageError
 from floorplan_core.exporters import png
 from floorplan_core.exporters.filmstrip import filmstrip_image, filmstrip_png
-from floorplan_core.exporters.png_canvas import LONG_SIDE, STRIP, View, fit_view, plan_bounds
+from floorplan_core.exporters.png_canvas import LONG_SIDE, View, fit_view, plan_bounds
 from floorplan_core.model import FREE, FloorPlan
 from tests.factories import l_corridor, office, small_flat
 
@@ -43,7 +43,7 @@ def test_size_and_same_bytes(exporter: Any, make: Any, tmp_path: Path) -> None:
     assert (tmp_path / "a.part").read_bytes() == (tmp_path / "b.part").read_bytes()
     with Image.open(tmp_path / "a.part") as image:
         assert image.format == "PNG"
-        assert max(image.size[0], image.size[1] - STRIP) == LONG_SIDE
+        assert max(image.size[0], image.size[1] - fit_view(plan_bounds(make())).strip) == LONG_SIDE
 
 
 def test_occupancy_colours(plan: FloorPlan, view: View) -> None:
