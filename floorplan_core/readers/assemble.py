@@ -12,7 +12,7 @@ from floorplan_core.errors import InputError
 from floorplan_core.model import LocalFrame, PointChunk, Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
-from floorplan_core.readers.axes import guess_axes
+from floorplan_core.readers.axes import AxisGuess, guess_axes
 from floorplan_core.readers.local import (
     LIMIT,
     choose_shift,
@@ -21,15 +21,10 @@ from floorplan_core.readers.local import (
     local_trajectory,
     world_points,
 )
-from floorplan_core.readers.source import PointSource, RawChunk
+from floorplan_core.readers.source import PointSource, RawChunk, ScanIds
 from floorplan_core.readers.trajectory import read_trajectory
-from floorplan_core.readers.trajectory_files import (
-    belongs,
-    check_plausible,
-    check_rows,
-    find_trajectory,
-    fit_unit,
-)
+from floorplan_core.readers.trajectory_check import belongs, check_plausible, check_rows, fit_unit
+from floorplan_core.readers.trajectory_files import find_trajectory
 from floorplan_core.units import METRES_PER_UNIT, up_rotation
 
 Float = NDArray[np.float64]
@@ -37,40 +32,88 @@ Float = NDArray[np.float64]
 
 def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> Reconstruction:
     """Guess unit, up axis and shift on a sample, find and check the trajectory, wire up the chunks."""
-    name = source.path.name
-    notes = list(source.notes)
     sample = source.sample()
-    points, scan_id = finite_sample(sample, name)
-    trajectory = _trajectory(source, options, observer, notes)
-    if trajectory is not None and source.has_scan_id and source.scan_ids is not None:
-        check_rows(name, source.scan_ids, len(trajectory))
-    near = trajectory if trajectory is not None and belongs(points, trajectory) else None
+    points, scan_id = finite_sample(sample, source.path.name)
+    path, notes = _find_path(source, options, observer)
+    if path is not None:
+        _check_rows(source, scan_id, len(path))
+    near = path if path is not None and belongs(points, path) else None
     guess = guess_axes(points, near, options.input.unit, options.input.up)
-    notes.extend(guess.sentences)
-    scale, rotation = METRES_PER_UNIT[guess.unit], up_rotation(guess.up)
-    frame = LocalFrame(scale, guess.unit, guess.up, rotation)
-    in_world = world_points(points, frame)
-    frame = replace(frame, shift=choose_shift(in_world))
+    frame = _local_frame(points, guess)
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
-    if trajectory is not None:
-        in_metres = fit_unit(points, trajectory, frame.scale)
-        if in_metres is not None:
-            notes.append("The trajectory is in metres, unlike the points.")
-        trajectory = local_trajectory(in_metres or trajectory, frame)
-        ids = _usable(scan_id, len(trajectory), name)
-        check_plausible(name, in_world - frame.shift, ids, trajectory, options.input.max_range)
-    rows = None if trajectory is None or not source.has_scan_id else len(trajectory)
+    trajectory = None
+    if path is not None:
+        trajectory = _trajectory(source, points, scan_id, path, frame, options, observer, notes)
+    rows = len(trajectory) if trajectory is not None and source.has_scan_id else None
     return Reconstruction(
-        name=name,
+        name=source.path.name,
         chunks=chunk_factory(source, frame, rows, observer),
         point_count=source.count,
         trajectory=trajectory,
         local_frame=frame,
-        scans_ordered=source.scan_ids is not None and source.scan_ids.ordered and rows is not None,
-        assumptions=tuple(notes),
+        scans_ordered=rows is not None and source.scan_ids is not None and source.scan_ids.ordered,
+        assumptions=(*source.notes, *notes, *guess.sentences),
         format=source.format,
     )
+
+
+def _local_frame(points: Float, guess: AxisGuess) -> LocalFrame:
+    frame = LocalFrame(METRES_PER_UNIT[guess.unit], guess.unit, guess.up, up_rotation(guess.up))
+    return replace(frame, shift=choose_shift(world_points(points, frame)))
+
+
+def _find_path(
+    source: PointSource, options: ReadOptions, observer: Observer
+) -> tuple[Trajectory | None, list[str]]:
+    """The trajectory that was asked for, that the file carries, or that lies beside it; file coordinates."""
+    if options.trajectory is not None:
+        return read_trajectory(options.trajectory, observer), []
+    if source.poses is not None:
+        return source.poses, []
+    name, beside = source.path.name, find_trajectory(source.path)
+    if beside is not None:
+        return read_trajectory(beside, observer), [f"The trajectory is {beside.name}, found beside {name}."]
+    if source.has_scan_id:
+        return None, [f"No trajectory was found beside {name}: sensor positions are not known."]
+    return None, []
+
+
+def _check_rows(source: PointSource, scan_id: NDArray[np.int32] | None, rows: int) -> None:
+    """All scan ids where they are known, else those of the sample, refer to rows that exist."""
+    if source.scan_ids is not None:
+        check_rows(source.path.name, source.scan_ids, rows)
+    elif scan_id is not None:
+        _check_ids(scan_id, rows, source.path.name)
+
+
+def _trajectory(
+    source: PointSource,
+    points: Float,
+    scan_id: NDArray[np.int32] | None,
+    path: Trajectory,
+    frame: LocalFrame,
+    options: ReadOptions,
+    observer: Observer,
+    notes: list[str],
+) -> Trajectory | None:
+    """``path`` in the local frame, once it proved to be of this survey.
+
+    A path that nobody asked for and no point refers to is left out where it does not fit.
+    """
+    in_metres = fit_unit(points, path, frame.scale)
+    if in_metres is not None:
+        notes.append("The trajectory is in metres, unlike the points.")
+    trajectory = local_trajectory(in_metres or path, frame)
+    local = world_points(points, frame) - frame.shift
+    try:
+        check_plausible(source.path.name, local, scan_id, trajectory, options.input.max_range)
+    except InputError as error:
+        if source.has_scan_id or options.trajectory is not None:
+            raise
+        observer.warning(f"{error} It was left out.")
+        return None
+    return trajectory
 
 
 def finite_sample(sample: RawChunk, name: str) -> tuple[Float, NDArray[np.int32] | None]:
@@ -97,7 +140,7 @@ def chunk_factory(
             observer.check_cancelled()
             chunk, lost = _local_chunk(raw, frame)
             if rows is not None and chunk.scan_id is not None:
-                _usable(chunk.scan_id, rows, source.path.name)
+                _check_ids(chunk.scan_id, rows, source.path.name)
             total += len(raw.points)
             left_out += lost
             unreadable += raw.dropped
@@ -133,31 +176,9 @@ def _report(name: str, left_out: int, unreadable: int, total: int, observer: Obs
         observer.warning(f"{unreadable:,} lines of {name} hold no point; they were left out.")
 
 
-def _trajectory(
-    source: PointSource, options: ReadOptions, observer: Observer, notes: list[str]
-) -> Trajectory | None:
-    """The trajectory that was asked for, or that lies beside the cloud, or that the file carries."""
-    if options.trajectory is not None:
-        return read_trajectory(options.trajectory, observer)
-    if source.poses is not None:
-        return source.poses
-    beside = find_trajectory(source.path)
-    if beside is not None:
-        notes.append(f"The trajectory is {beside.name}, found beside {source.path.name}.")
-        return read_trajectory(beside, observer)
-    if source.has_scan_id:
-        notes.append(f"No trajectory was found beside {source.path.name}: sensor positions are not known.")
-    return None
-
-
-def _usable(scan_id: NDArray[np.int32] | None, rows: int, name: str) -> NDArray[np.int32] | None:
-    """``scan_id`` if all of it refers to rows of the trajectory; :class:`InputError` otherwise."""
-    if scan_id is None or len(scan_id) == 0:
-        return scan_id
-    from floorplan_core.readers.source import ScanIds
-
-    check_rows(name, ScanIds(int(scan_id.min()), int(scan_id.max()), False), rows)
-    return scan_id
+def _check_ids(scan_id: NDArray[np.int32], rows: int, name: str) -> None:
+    if len(scan_id):
+        check_rows(name, ScanIds(int(scan_id.min()), int(scan_id.max()), False), rows)
 
 
 def _shift_sentence(frame: LocalFrame, sample: RawChunk) -> str:

@@ -17,7 +17,7 @@ SCAN_ID_NAMES = (
     "scan_id", "scanid", "scan_index", "scan_idx", "scan_number", "scan", "frame_id", "frame_index", "frame",
     "pose_id", "pose_index", "station_id", "scan_ids",
 )  # fmt: skip
-STAMP_NAMES = ("timestamp", "stamp", "stamps", "time", "gps_time", "gpstime", "t")
+STAMP_NAMES = ("timestamp", "stamp", "stamps", "time", "gps_time", "gpstime")
 
 
 def find_xyz(names: Sequence[str]) -> tuple[str, str, str] | None:

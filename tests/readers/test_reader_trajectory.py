@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from reader_clouds import Remembering, all_points, path_in_room, room, write_ply, write_tum, xyz_columns
@@ -139,6 +141,47 @@ def test_within_the_bounds_but_not_near_its_points(tmp_path):
     rows = np.column_stack([np.arange(4000.0), places, np.tile([0, 0, 0, 1.0], (4000, 1))])
     with pytest.raises(InputError, match="half of the points are more than"):
         open_survey(path, write_tum(tmp_path / "other.tum", rows))
+
+
+def test_of_another_building_within_the_same_bounds(tmp_path):
+    """A row of small rooms, each seen from within; the other path visits them the other way round."""
+    rng = np.random.default_rng(21)
+    rooms = [room(rng, (4.0, 5.0, 2.6), density=40) + np.array([4.2 * k, 0, 0]) for k in range(12)]
+    ids = np.repeat(np.arange(12), [len(r) for r in rooms]).astype("i4")
+    path = write_ply(
+        tmp_path / "points.ply", "binary_little_endian", xyz_columns(np.concatenate(rooms), scan_id=ids)
+    )
+    rows = np.zeros((12, 8))
+    rows[:, 0], rows[:, 1], rows[:, 2:4], rows[:, 7] = np.arange(12), 4.2 * np.arange(12) + 2, (2.5, 1.2), 1
+    assert open_survey(path, write_tum(tmp_path / "right.tum", rows)).trajectory is not None
+    rows[:, 1:4] = rows[::-1, 1:4]
+    with pytest.raises(InputError, match="of the points lie behind walls"):
+        open_survey(path, write_tum(tmp_path / "wrong.tum", rows))
+
+
+def test_of_another_shared_survey():
+    shared = Path(__file__).resolve().parents[2].parent / "shared" / "data"
+    if not shared.exists():
+        pytest.skip("the surveys of ../shared/data are not beside this checkout")
+    clouds = ("carmen_seattle/points3d_extruded.ply", "sim_aws_small_house/points.ply")
+    for cloud in clouds:
+        for other in ("carmen_intel", "sim_aws_hospital"):
+            with pytest.raises(InputError, match="not of the survey"):
+                open_survey(shared / cloud, shared / other / "trajectory.tum")
+
+
+def test_a_path_that_nobody_asked_for_is_left_out_where_it_does_not_fit(tmp_path):
+    path = write_ply(
+        tmp_path / "a.ply", "binary_little_endian", xyz_columns(room(np.random.default_rng(8), density=15))
+    )
+    rows = path_in_room()
+    rows[:, 1] += 300
+    write_tum(tmp_path / "trajectory.tum", rows)
+    seen = Remembering()
+    assert open_survey(path, observer=seen).trajectory is None
+    assert "It was left out." in seen.warnings[0]
+    with pytest.raises(InputError):
+        open_survey(path, tmp_path / "trajectory.tum")
 
 
 def test_negative_scan_ids(tmp_path):
