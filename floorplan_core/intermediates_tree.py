@@ -23,6 +23,7 @@ import math
 from collections.abc import Callable
 from enum import Enum
 from functools import lru_cache
+from importlib import import_module
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -63,6 +64,21 @@ def known_classes() -> dict[str, type]:
     return models | settings
 
 
+STAGE_CLASSES = {  # of stage results; imported only when one is met, as compiled code comes with them
+    "Evidence": "floorplan_core.model.evidence",
+    "Surfels": "floorplan_core.geometry.surfel_map",
+    "SegmentRows": "floorplan_core.stages.layout_segments",
+}
+
+
+def find_class(name: str) -> type | None:
+    """The class called ``name``, if it may appear in a file."""
+    if name in STAGE_CLASSES:
+        found: type = getattr(import_module(STAGE_CLASSES[name]), name)
+        return found
+    return known_classes().get(name)
+
+
 def encode(value: Any, pools: Pools) -> Any:
     """The tree of ``value``; its arrays are appended to ``pools``. TypeError for what is not data."""
     if value is None or isinstance(value, bool | str) or type(value) is int:
@@ -95,10 +111,11 @@ def _encode_dict(value: dict[Any, Any], pools: Pools) -> Any:
 def _encode_object(value: Any, pools: Pools) -> Any:
     """Dataclasses, settings and geometries."""
     name = type(value).__name__
-    if name in known_classes() and dataclasses.is_dataclass(value):
+    known = find_class(name) is type(value)
+    if known and dataclasses.is_dataclass(value):
         parts = ((f.name, encode(getattr(value, f.name), pools)) for f in dataclasses.fields(value))
         return ["o", name, *(part for pair in parts for part in pair)]
-    if name in known_classes():
+    if known:
         return ["c", name, value.model_dump(mode="json")]
     if hasattr(value, "geom_type"):
         import shapely
@@ -189,9 +206,10 @@ def _decode_dataclass(parts: list[Any], pools: dict[str, NDArray[Any]]) -> Any:
 
 
 def _known(name: Any) -> type:
-    if not isinstance(name, str) or name not in known_classes():
+    found = find_class(name) if isinstance(name, str) else None
+    if found is None:
         raise Malformed(f"it holds an unknown {name!r}")
-    return known_classes()[name]
+    return found
 
 
 @lru_cache(maxsize=64)

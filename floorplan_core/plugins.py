@@ -145,17 +145,17 @@ class PluginRegistry:
     def exporter(self, path: Path, format: str | None = None) -> Exporter:
         """The exporter named ``format``, else the one for the suffix of ``path``.
 
-        Where several share a suffix, the one with the file's stem in its name wins, else the first:
-        ``planes.png`` is written by "Planes PNG".
-        Raises :class:`UsageError` that lists what there is.
+        The longest suffix that fits wins, then the first exporter; a suffix of two parts may be the whole name:
+        ``planes.png`` has the suffix ``.planes.png``. Raises :class:`UsageError` that lists what there is.
         """
         if format is not None:
-            wanted = [e for e in self.exporters if e.name.lower() == format.lower()]
+            wanted = [(0, e) for e in self.exporters if e.name.lower() == format.lower()]
         else:
-            wanted = [e for e in self.exporters if path.name.lower().endswith(e.suffixes)]
+            name = f".{path.name.lower()}"
+            wanted = [(len(s), e) for e in self.exporters for s in e.suffixes if name.endswith(s)]
         if not wanted:
             raise UsageError(self._no_exporter(path, format))
-        return min(wanted, key=lambda e: path.stem.lower() not in e.name.lower().split())
+        return max(wanted, key=lambda found: found[0])[1]
 
     def classifier(self, name: str) -> RegionClassifier:
         """The classifier called ``name``. Raises :class:`UsageError` that lists what there is."""

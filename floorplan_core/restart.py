@@ -1,7 +1,7 @@
 """What every stage of a run made, kept in a folder, and runs that begin again at any of the stages.
 
-One file a step, ``NN-STAGE.stage`` (a stage may take several steps), beside ``run.stage``, which holds what the
-steps do not: the name of the input, the number of points, how its axes were read, the settings.
+One file a step, ``NN-STAGE.stage`` (a stage may take several steps), beside ``run.stage``, which holds what
+the steps do not: the name of the input, the number of points, how its axes were read, the settings.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ SKIPPED = ("read", "export")  # stages around the plan, not of it
 
 
 def save_stages(steps: Sequence[tuple[str, object]], plan: FloorPlan, folder: Path) -> None:
-    """Write the ``steps`` (stage, result) of the run that made ``plan`` into ``folder``, which must not exist."""
+    """Write the ``steps`` (stage, result) of the run that made ``plan`` into the new ``folder``."""
     folder.mkdir()
     kept = [(stage, result) for stage, result in steps if stage not in SKIPPED]
     for number, (stage, result) in enumerate(kept):
@@ -66,7 +66,8 @@ def _run(folder: Path) -> dict[str, Any]:
     file = folder / RUN_FILE
     if not file.is_file():
         raise InputError(
-            f"The folder {folder} holds no stages of a run; 'floorcast plan INPUT --out DIR --save-stages' keeps them."
+            f"The folder {folder} holds no stages of a run; "
+            "'floorcast plan INPUT --out DIR --save-stages' keeps them."
         )
     run = intermediates.load(file, dict)
     wanted = {"source": str, "points": int, "config": Config, "frame": _local_frame()}

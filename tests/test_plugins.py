@@ -236,16 +236,20 @@ def test_errors_on_purpose_and_of_the_system_do_not_switch_a_plugin_off(error: E
     assert state.enabled
 
 
-def test_the_right_exporter_is_chosen_by_name_then_stem_then_order() -> None:
+def test_the_right_exporter_is_chosen_by_name_then_longest_suffix_then_order() -> None:
     registry = PluginRegistry()
-    for name in ("PNG", "Planes PNG", "other"):
+    for name, suffix in (("PNG", ".png"), ("Planes PNG", ".planes.png"), ("other", ".png")):
         exporter = FailingExporter(RuntimeError())
-        exporter.name, exporter.suffixes = name, (".png",)
+        exporter.name, exporter.suffixes = name, (suffix,)
         registry.add(PluginStatus(name, "installed"), [exporter])
     assert registry.exporter(Path("planes.png")).name == "Planes PNG"
+    assert registry.exporter(Path("mine.planes.png")).name == "Planes PNG"
+    assert registry.exporter(Path("aeroplanes.png")).name == "PNG"
     assert registry.exporter(Path("Some.PNG")).name == "PNG"
     assert registry.exporter(Path("x.dat"), "OTHER").name == "other"
-    with pytest.raises(UsageError, match=r"for 'x\.dat'; known: PNG \(\.png\), Planes PNG \(\.png\), other"):
+    with pytest.raises(
+        UsageError, match=r"for 'x\.dat'; known: PNG \(\.png\), Planes PNG \(\.planes\.png\), other"
+    ):
         registry.exporter(Path("x.dat"))
     with pytest.raises(UsageError, match="called 'svg'"):
         registry.exporter(Path("x.png"), "svg")

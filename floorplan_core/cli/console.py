@@ -52,7 +52,7 @@ class CommandObserver(Observer):
         super().__init__(console.token)
         self.console = console
         self.warnings: list[str] = []
-        self.results: dict[str, object] = {}
+        self.results: list[tuple[str, object]] = []
         self.keep_results = keep_results
         self._bars = StageBars() if bars else None
 
@@ -77,7 +77,7 @@ class CommandObserver(Observer):
         if self._bars:
             self._bars.finish(stage, seconds)
         if self.keep_results and result is not None:
-            self.results[stage] = result
+            self.results.append((stage, result))
 
     def warning(self, text: str) -> None:
         if text not in self.warnings:

@@ -38,7 +38,7 @@ OutFolder = Annotated[
 
 
 def resolve_config(file: Path | None, assignments: list[str] | None, stages: Path | None = None) -> Config:
-    """The settings of ``--config`` (else of the run kept in ``stages``, else the defaults) with every ``--set``."""
+    """The settings of ``--config``, else of the run in ``stages``, else defaults; then every ``--set``."""
     from floorplan_core.config import Config
 
     if file is not None:
