@@ -1,11 +1,13 @@
 """Rows of numbers in text (ASCII PLY and PCD, XYZ, PTS, CSV): blocks of whole lines become arrays.
 
-A block in which every line holds the same number of plain numbers is parsed at once; any other block goes
-line by line, where lines that are no points are left out and counted.
+A block in which every line holds the same number of plain numbers is parsed at once, one whose other columns
+hold words by numpy's table reader; any other block goes line by line, where lines that are no points are left
+out and counted.
 """
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -104,6 +106,7 @@ def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
     """Points of whole lines."""
     text = normalise(block, layout)
     rows = _parse_at_once(text, layout)
+    rows = _parse_columns(text, layout) if rows is None else rows
     return _rows_to_chunk(rows, layout) if rows is not None else _parse_lines(text, layout)
 
 
@@ -127,9 +130,26 @@ def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:
     return values.reshape(lines, layout.columns) if len(values) == lines * layout.columns else None
 
 
+def _parse_columns(text: bytes, layout: TextLayout) -> Float | None:
+    used = _used(layout)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            columns = np.loadtxt(io.StringIO(text.decode("latin-1")), usecols=used, ndmin=2)
+        except (ValueError, UserWarning):  # a line that is no point, or no line at all
+            return None
+    rows = _no_rows(layout, len(columns))
+    rows[:, used] = columns
+    return rows
+
+
+def _used(layout: TextLayout) -> list[int]:
+    return [c for c in (*layout.xyz, layout.scan_id, layout.stamp) if c is not None]
+
+
 def _parse_lines(text: bytes, layout: TextLayout) -> RawChunk:
     values, dropped = [], 0
-    used = [c for c in (*layout.xyz, layout.scan_id, layout.stamp) if c is not None]
+    used = _used(layout)
     for line in text.splitlines():
         words = line.split(b"#", 1)[0].split()
         if not words or words[0].startswith(b"//"):
