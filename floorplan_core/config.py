@@ -135,6 +135,9 @@ class DoorsConfig(Section):
     max_opening: float = setting(
         4.0, "m", "Widest opening below a lintel that still separates two regions.", gt=0.5, le=10
     )
+    max_beamless: float = setting(
+        2.0, "m", "Across a wider opening a shallow lintel is a beam below the ceiling, and separates nothing.", gt=0.5, le=10
+    )
     min_response: float = setting(
         0.25, "", "Smallest response of the matched filter, 1 being a clean aperture.", ge=0, le=1
     )
@@ -148,6 +151,9 @@ class CandidatesConfig(Section):
     """Candidate rectangles and their pruning."""
 
     min_side: float = setting(1.0, "m", "Shorter sides are pruned (paper: 1 m).", ge=0.1, le=20)
+    min_rest_side: float = setting(
+        0.6, "m", "The same for what is left uncovered and closed by speculated planes.", ge=0.1, le=20
+    )
     tolerance: float = setting(
         0.15, "m", "Walls and doors this near to a side do not lie in the interior.", ge=0, le=1
     )

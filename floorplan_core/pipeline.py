@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.model import (
@@ -70,6 +71,7 @@ class FloorPlanner:
         self._names: tuple[Region, ...] = ()
         self._unused = 1  # the lowest number that no region of the run ever had
         self._pool = ThreadPoolExecutor(1)
+        self._lattice: float | None = None  # m between the points of a voxel map; 0: no lattice; None: not known yet
         self.seconds: dict[str, float] = {}
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
@@ -101,6 +103,7 @@ class FloorPlanner:
     ) -> None:
         began = time.perf_counter()
         limits = (self.config.input.min_range, self.config.input.max_range)
+        points, scan = self._densify(points, scan)
         scan, origins = (
             np.ascontiguousarray(scan, dtype=np.int32),
             np.ascontiguousarray(origins, dtype=np.float64),
@@ -111,6 +114,17 @@ class FloorPlanner:
         if len(origins):
             self._path.append(origins)
         self.seconds["integrate"] = self.seconds.get("integrate", 0.0) + time.perf_counter() - began
+
+    def _densify(
+        self, points: NDArray[np.float64] | NDArray[np.float32], scan: NDArray[np.int32]
+    ) -> tuple[NDArray[np.float64] | NDArray[np.float32], NDArray[np.int32]]:
+        """The points of a coarse voxel map, subdivided so that its surfaces have no holes."""
+        if self._lattice is None and len(points):
+            self._lattice = lattice_spacing(points)
+        if not self._lattice or self._lattice <= self._surfels.size:
+            return points, scan
+        dense = subdivide(points, self._lattice, self._surfels.size)
+        return dense, np.repeat(scan, len(dense) // max(len(points), 1))
 
     def plan(self, given: Sequence[object] = ()) -> FloorPlan:
         """The floor plan of all that was integrated so far; raises :class:`NoPlanError` where there is none.
@@ -207,11 +221,14 @@ def _cover_the_rest(
     """Cover what is left with the help of speculated planes at its frontier."""
     from dataclasses import replace
 
-    extra = frontier_planes(cover.uncovered, grid, paired)
+    extra = frontier_planes(cover.uncovered, grid, paired, walls)
     if not extra:
         return planes, cover
     rest = replace(grid, universe=cover.uncovered)
-    candidates = _candidates([*paired, *extra], walls, rest, config, Observer())
+    narrow = config.model_copy(
+        update={"candidates": config.candidates.model_copy(update={"min_side": config.candidates.min_rest_side})}
+    )
+    candidates = _candidates([*paired, *extra], walls, rest, narrow, Observer())
     more = cover_free_space(candidates, rest, config.cover)
     joined = RectangleCover(
         np.concatenate([cover.chosen, np.full(len(more), -1, dtype=np.int64)]),

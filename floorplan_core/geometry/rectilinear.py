@@ -38,7 +38,8 @@ def move_sides(ring: Float, target: Callable[[Float, Float], float]) -> Float:
 
 
 def map_polygon(polygon: Any, move: Callable[[Float], Float]) -> Any:
-    """Apply ``move`` to the corners of each ring; rings that collapse are dropped."""
+    """Apply ``move`` to the corners of each ring, the inside at its left; holes that collapse are dropped."""
+    polygon = shapely.orient_polygons(polygon)
     shell = move(np.asarray(polygon.exterior.coords))
     holes = [move(np.asarray(ring.coords)) for ring in polygon.interiors]
     return shapely.Polygon(shell, [h for h in holes if len(h) >= 4])

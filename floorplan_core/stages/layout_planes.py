@@ -94,7 +94,11 @@ def _profile(
     low = count_bits(bits & low_mask) / int(count_bits(low_mask))
     high = count_bits(bits & high_mask) / max(int(count_bits(high_mask)), 1)
     return WallProfile(
-        float(evidence.origin[1 - across]), evidence.fine, low, high, _through(facing, offset, evidence)
+        float(evidence.origin[1 - across]),
+        evidence.fine,
+        low,
+        high,
+        _through(facing, offset, evidence),
     )
 
 
@@ -124,7 +128,7 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     under a lintel is part of the wall (its opening is reported as a door or opening).
     """
     solid = _close(profile.low >= 0.12, 2)
-    lintel = (profile.high > 0) & ~solid
+    lintel = _lintels(profile, solid, doors)
     wall = solid | lintel
     runs = np.flatnonzero(np.diff(np.concatenate([[False], wall, [False]]).astype(np.int8))).reshape(-1, 2)
     joined: list[list[int]] = []
@@ -135,6 +139,17 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
             joined.append([int(a), int(b)])
     kept = [r for r in joined if _stands(profile, solid, r)]
     return profile.start + np.array(kept, dtype=np.float64).reshape(-1, 2) * profile.step
+
+
+def _lintels(profile: WallProfile, solid: NDArray[np.bool_], doors: DoorsConfig) -> NDArray[np.bool_]:
+    """Cells under wall that begins above 2 m. Across more than a double door, what is shallow is a beam."""
+    lintel = (profile.high > 0) & ~solid
+    out = lintel.copy()
+    for a, b in np.flatnonzero(np.diff(np.concatenate([[False], lintel, [False]]).astype(np.int8))).reshape(-1, 2):
+        wide = (b - a) * profile.step > doors.max_beamless
+        if wide and float(np.median(profile.high[a:b])) < 0.5 and float(profile.through[a:b].mean()) > 0.3:
+            out[a:b] = False
+    return out
 
 
 def _close(mask: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:

@@ -44,10 +44,10 @@ def build_regions(
 ) -> tuple[Region, ...]:  # fmt: skip
     """The regions in reading order (top to bottom, left to right), without label or turning distance."""
     groups = connected_groups(cover.bounds, separators(planes, doors))
-    shapes = [_union(cover.bounds[rows], config.sliver) for rows in groups]
+    shapes = [_union(cover.bounds[rows], bridges, config.sliver) for rows, bridges in groups]
     walls = _Surfaces(planes, segments)
     pieces: list[tuple[object, NDArray[np.int64]]] = []
-    for shape, rows in zip(shapes, groups, strict=True):
+    for shape, (rows, _) in zip(shapes, groups, strict=True):
         pieces += [
             (map_polygon(part, lambda ring: move_sides(ring, walls.target)), rows)
             for part in polygons_of(shape)
@@ -72,8 +72,11 @@ def separators(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> dict[int
     return out
 
 
-def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[NDArray[np.int64]]:
-    """Rows of rectangles (C, 4) that belong together: they overlap, or share a border that is not wall."""
+def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArray[np.int64], Float]]:
+    """Rectangles (C, 4) that belong together: they overlap, or share a border that is not all wall.
+
+    Each group is its rows, and the boxes (K, 4) that join what a border of a few centimetres parts.
+    """
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import connected_components
 
@@ -84,32 +87,35 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[NDArray[np.
     high = np.minimum(y1[:, None], y1) - np.maximum(y0[:, None], y0)
     linked = (wide > _OVERLAP) & (high > _OVERLAP)
     border = (np.minimum(wide, high) > -_OVERLAP) & (np.maximum(wide, high) > _PASSAGE) & ~linked
+    bridges: dict[int, list[Float]] = {}
     for i, j in np.argwhere(np.triu(border, 1)):
         axis = 0 if wide[i, j] < high[i, j] else 1
-        if _is_open(bounds[i], bounds[j], axis, walls[axis]):
+        boxes = _open_border(bounds[i], bounds[j], axis, walls[axis])
+        if boxes:
             linked[i, j] = linked[j, i] = True
+            bridges.setdefault(int(i), []).extend(boxes)
     count, label = connected_components(csr_array(linked), directed=False)
-    return [np.flatnonzero(label == k) for k in range(count)]
+    groups = [np.flatnonzero(label == k) for k in range(count)]
+    return [(g, np.array([b for i in g for b in bridges.get(int(i), [])]).reshape(-1, 4)) for g in groups]
 
 
-def _is_open(a: Float, b: Float, axis: int, walls: Float) -> bool:
-    """True where at least a passage's width of the border of two rectangles is neither wall nor door."""
-    near = (max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2]))
+def _open_border(a: Float, b: Float, axis: int, walls: Float) -> list[Float]:
+    """Boxes across the parts of the border of two rectangles that are neither wall nor door, if wide enough."""
+    near = sorted((max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])))
     low, high = max(a[1 - axis], b[1 - axis]), min(a[3 - axis], b[3 - axis])
-    hit = walls[(walls[:, 0] > min(near) - _NEAR) & (walls[:, 0] < max(near) + _NEAR)]
-    at, widest = low, 0.0
-    for start, end in sorted((float(s), float(e)) for _, s, e in hit):
-        widest = max(widest, min(start, high) - at)
+    hit = walls[(walls[:, 0] > near[0] - _NEAR) & (walls[:, 0] < near[1] + _NEAR)]
+    at, boxes = low, []
+    for start, end in [*sorted((float(s), float(e)) for _, s, e in hit), (high, high)]:
+        if min(start, high) - at >= _PASSAGE:
+            v0, v1 = at, min(start, high)
+            boxes.append(np.array([near[0], v0, near[1], v1] if axis == 0 else [v0, near[0], v1, near[1]]))
         at = max(at, end)
-    return max(widest, high - at) >= _PASSAGE
+    return boxes
 
 
-def _union(bounds: Float, sliver: float) -> object:
-    """The union of one group; gaps between its rectangles that are thinner than a border are closed."""
-    half = _OVERLAP / 2
-    shape = shapely.union_all(shapely.box(*bounds.T))
-    closed = shape.buffer(half, join_style="mitre").buffer(-half, join_style="mitre")
-    return open_polygon(closed, sliver)
+def _union(bounds: Float, bridges: Float, sliver: float) -> object:
+    """The union of one group and of the boxes that join it."""
+    return open_polygon(shapely.union_all(shapely.box(*np.concatenate([bounds, bridges]).T)), sliver)
 
 
 class _Surfaces:

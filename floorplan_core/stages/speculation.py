@@ -15,25 +15,48 @@ from numpy.typing import NDArray
 from floorplan_core.model import Facing, LayoutPlane, OccupancyGrid
 
 _LEAST = 0.6  # m of straight frontier that is worth a plane
+_REACH = 4  # cells between the end of a wall and an uncovered cell
 
 
 def frontier_planes(
-    uncovered: NDArray[np.bool_], grid: OccupancyGrid, planes: Sequence[LayoutPlane]
+    uncovered: NDArray[np.bool_], grid: OccupancyGrid, planes: Sequence[LayoutPlane], walls: NDArray[np.float64]
 ) -> tuple[LayoutPlane, ...]:
-    """Speculated planes along the straight frontiers of the uncovered patches, where no plane of that facing is near."""
-    least = max(1, round(_LEAST / grid.cell))
+    """Speculated planes along the straight frontiers of the uncovered patches and at the wall ends beside them.
+
+    :param walls: (B, 4) blockers; a wall that ends in the open keeps rectangles from passing its end.
+    """
     out: list[LayoutPlane] = []
     for facing in Facing:
-        cells = uncovered if facing.axis == 0 else uncovered.T
-        ahead = np.pad(cells, ((0, 0), (1, 1)))
-        edge = cells & ~(ahead[:, :-2] if facing.sign > 0 else ahead[:, 2:])
-        length = edge.sum(axis=0)
         taken = [p.offset for p in planes if p.facing == facing]
-        for column in np.argsort(-length, kind="stable"):
-            if length[column] < least:
-                break
-            offset = float(grid.origin[facing.axis] + (column + (0 if facing.sign > 0 else 1)) * grid.cell)
+        for offset in (*_frontiers(uncovered, grid, facing), *_wall_ends(uncovered, grid, facing, walls)):
             if not any(abs(offset - other) < 2.5 * grid.cell for other in taken):
                 taken.append(offset)
                 out.append(LayoutPlane(f"q{len(out) + 1}", facing, offset, speculated=True))
     return tuple(out)
+
+
+def _frontiers(uncovered: NDArray[np.bool_], grid: OccupancyGrid, facing: Facing) -> list[float]:
+    """Offsets of the straight edges of the patches, longest first."""
+    cells = uncovered if facing.axis == 0 else uncovered.T
+    ahead = np.pad(cells, ((0, 0), (1, 1)))
+    length = (cells & ~(ahead[:, :-2] if facing.sign > 0 else ahead[:, 2:])).sum(axis=0)
+    order = np.argsort(-length, kind="stable")
+    order = order[length[order] >= max(1, round(_LEAST / grid.cell))]
+    return [float(grid.origin[facing.axis] + (c + (facing.sign < 0)) * grid.cell) for c in order]
+
+
+def _wall_ends(
+    uncovered: NDArray[np.bool_], grid: OccupancyGrid, facing: Facing, walls: NDArray[np.float64]
+) -> list[float]:
+    """Ends of the walls across the facing that lie within reach of an uncovered cell."""
+    a = facing.axis
+    ends = []
+    for box in walls:
+        if box[a + 2] - box[a] <= box[3 - a] - box[1 - a]:
+            continue  # this wall does not run across the facing
+        for end in (box[a], box[a + 2]):
+            point = np.array([end, box[1 - a]] if a == 0 else [box[1 - a], end])
+            i, j = ((point - grid.origin) / grid.cell).astype(int)
+            if uncovered[max(j - _REACH, 0) : j + _REACH + 1, max(i - _REACH, 0) : i + _REACH + 1].any():
+                ends.append(float(end))
+    return sorted(set(ends))
