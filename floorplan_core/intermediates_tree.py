@@ -202,6 +202,8 @@ def _decode_dataclass(parts: list[Any], pools: dict[str, NDArray[Any]]) -> Any:
     for name, hint in _hints(kind).items():
         if name in values and not conforms(values[name], hint):
             raise Malformed(f"{parts[0]}.{name} is a {type(values[name]).__name__}, which it cannot be")
+    if set(values) != {f.name for f in dataclasses.fields(kind)}:
+        raise Malformed(f"its {parts[0]} comes from another version of Floorcast")
     return kind(**values)
 
 

@@ -145,7 +145,7 @@ class PluginRegistry:
     def exporter(self, path: Path, format: str | None = None) -> Exporter:
         """The exporter named ``format``, else the one for the suffix of ``path``.
 
-        The longest suffix that fits wins, then the first exporter; a suffix of two parts may be the whole name:
+        The longest suffix that fits wins, then the first exporter; one of two parts may be the whole name:
         ``planes.png`` has the suffix ``.planes.png``. Raises :class:`UsageError` that lists what there is.
         """
         if format is not None:

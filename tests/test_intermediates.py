@@ -207,8 +207,8 @@ DAMAGES: dict[str, Any] = {
     "FloorPlan.doors is a str": lambda t: set_field(t, "doors", "none"),
     "FloorPlan.point_count is a float": lambda t: set_field(t, "point_count", 1.5),
     "FloorPlan.trajectory is a ndarray": lambda t: set_field(t, "trajectory", ["a", "b1", 0, [1]]),
-    "unexpected keyword argument": lambda t: t["root"].extend(["colour", 1]),
-    "missing 1 required": lambda t: t.update(
+    "FloorPlan comes from another version": lambda t: t["root"].extend(["colour", 1]),
+    "its FloorPlan comes from another version": lambda t: t.update(
         root=[v for i, v in enumerate(t["root"]) if i not in (1 + 19, 2 + 19)]
     ),
     "an array is missing": lambda t: set_field(t, "trajectory", ["a", "f8", 10**12, [10**12, 2]]),

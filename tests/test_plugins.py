@@ -43,7 +43,7 @@ def status(registry: PluginRegistry, name: str) -> PluginStatus:
 def test_what_ships_is_found_and_works() -> None:
     registry = default_registry()
     shipped = {s.name: s for s in registry.statuses if s.origin == "shipped"}
-    assert set(shipped) >= {"drawings", "figures", "paper_classifier", "point_clouds"}
+    assert set(shipped) >= {"geojson", "svg", "figures", "paper_classifier", "point_clouds"}
     assert [s for s in shipped.values() if s.error] == []
     assert {e.name for e in registry.exporters} >= {"GeoJSON", "SVG"}
     assert registry.classifier("paper").description
@@ -81,11 +81,11 @@ class FakeEntryPoint:
 
 
 def test_a_plugin_of_an_installed_package(monkeypatch: pytest.MonkeyPatch) -> None:
-    from floorcast_plugins import drawings
+    from floorcast_plugins import svg
 
     def points(group: str) -> list[FakeEntryPoint]:
         assert group == "floorcast.plugins"
-        return [FakeEntryPoint(drawings), FakeEntryPoint(ModuleNotFoundError("No module named 'heavy'"))]
+        return [FakeEntryPoint(svg), FakeEntryPoint(ModuleNotFoundError("No module named 'heavy'"))]
 
     monkeypatch.setattr(importlib.metadata, "entry_points", points)
     good, bad = [s for s in PluginRegistry().discover().statuses if s.origin == "installed"]

@@ -21,6 +21,7 @@ class Console:
     def __init__(self, context: typer.Context, *, as_json: bool = False, quiet: bool = False) -> None:
         self.as_json = as_json
         self.quiet = quiet
+        self.live: Progress | None = None  # the bars on the terminal, while there are any
         self.token = context.obj if isinstance(context.obj, CancelToken) else CancelToken()
 
     def result(self, data: dict[str, Any], text: str) -> None:
@@ -36,13 +37,17 @@ class Console:
 
     def message(self, text: str) -> None:
         """Something worth knowing, on stderr."""
-        if not self.quiet and not self.as_json:
+        if self.quiet or self.as_json:
+            return
+        if self.live is not None:  # a line between the bars, which are drawn anew below it
+            self.live.console.print(text, markup=False, highlight=False, soft_wrap=True)
+        else:
             sys.stderr.write(text + "\n")
 
-    def observer(self, *, keep_results: bool = False) -> CommandObserver:
-        """The observer that shows this command's progress."""
-        bars = not self.quiet and not self.as_json and sys.stderr.isatty()
-        return CommandObserver(self, bars=bars, keep_results=keep_results)
+    def observer(self, *, bars: bool = True, keep_results: bool = False) -> CommandObserver:
+        """The observer that shows this command's progress, with ``bars`` where stderr is a terminal."""
+        shown = bars and not self.quiet and not self.as_json and sys.stderr.isatty()
+        return CommandObserver(self, bars=shown, keep_results=keep_results)
 
 
 class CommandObserver(Observer):
@@ -59,11 +64,13 @@ class CommandObserver(Observer):
     def __enter__(self) -> CommandObserver:
         if self._bars:
             self._bars.progress.start()
+            self.console.live = self._bars.progress
         return self
 
     def __exit__(self, *_: object) -> None:
         if self._bars:
             self._bars.progress.stop()
+            self.console.live = None
 
     def stage_started(self, stage: str, total: int | None = None) -> None:
         if self._bars:

@@ -55,41 +55,65 @@ def watch(
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
-    with output_folder(out), console.observer() as observer:  # fails now, not after the first interval
+    observer = console.observer(bars=False)  # a line for each interval instead
+    with output_folder(out):  # made now, and removed again if nothing comes of it
         run = open_input(survey, trajectory, settings, observer)
-        film = Film()
-        timeline = replay(run, FloorPlanner(settings, observer), every, out, film, observer)
-        plans = [entry for entry in timeline if entry["plan"]]
-        if not plans:
-            raise NoPlanError(_never(timeline, run))
-        film.write(out / FILM_STRIP)
-    data = {"out": str(out), "plans": len(plans), "intervals": len(timeline), "timeline": timeline}
-    console.result(data, f"Wrote {len(plans)} plans, {TIMELINE} and {FILM_STRIP} into {out}.")
+        recorder = Recorder(out, observer)
+        planner = FloorPlanner(settings, observer, run.name, run.local_frame)
+        recorder.record(run, planner, every)
+        if not recorder.film.frames():
+            raise NoPlanError(_never(recorder.timeline, run))
+        recorder.film.write(out / FILM_STRIP)
+    plans = sum(entry["plan"] is not None for entry in recorder.timeline)
+    data = {"out": str(out), "plans": plans, "timeline": recorder.timeline, "warnings": observer.warnings}
+    console.result(data, f"Wrote {plans} plans, {TIMELINE} and {FILM_STRIP} into {out}.")
 
 
-def replay(
-    run: Reconstruction,
-    planner: FloorPlanner,
-    every: float,
-    out: Path,
-    film: Film,
-    observer: CommandObserver,
-) -> list[dict[str, Any]]:
-    """Integrate and plan, interval by interval; each one's files and the timeline so far appear together."""
-    from floorplan_core.replay import intervals
+class Recorder:
+    """Writes what a run gives, interval by interval; its files and the timeline so far appear together."""
 
-    timeline: list[dict[str, Any]] = []
-    for interval in intervals(run, every):
-        observer.check_cancelled()
-        seconds, plan, note = _advance(planner, interval, run)
-        entry = timeline_entry(interval, plan, seconds, note)
-        timeline.append(entry)
-        if plan is not None:
-            entry["plan"] = f"plan-{len(timeline):04d}"
-            film.add(plan, f"{interval.end:.0f} s, {interval.path_length:.0f} m")
-        _write_interval(out, entry["plan"], plan, timeline)
-        observer.console.message(_line(entry))
-    return timeline
+    def __init__(self, out: Path, observer: CommandObserver) -> None:
+        from floorplan_core.plugins import default_registry
+
+        self.timeline: list[dict[str, Any]] = []
+        self.film = Film()
+        self._out, self._observer = out, observer
+        self._exporters = {s: default_registry().exporter(Path(f"plan{s}")) for s in SUFFIXES}
+
+    def record(self, run: Reconstruction, planner: FloorPlanner, every: float) -> None:
+        """Integrate and plan until the run is over."""
+        from floorplan_core.replay import intervals
+
+        for interval in intervals(run, every):
+            self._observer.check_cancelled()
+            seconds, plan, note = _advance(planner, interval, run)
+            entry = timeline_entry(interval, plan, seconds, note)
+            self.timeline.append(entry)
+            if plan is not None:
+                entry["plan"] = f"plan-{len(self.timeline):04d}"
+                self.film.add(plan, f"{interval.end:.0f} s, {interval.path_length:.0f} m")
+            self._write(entry["plan"], plan)
+            self._observer.console.message(_line(entry))
+
+    def _write(self, name: str | None, plan: FloorPlan | None) -> None:
+        from floorplan_core.files import output_folder, writing
+
+        with output_folder(self._out) as staging, writing(self._out):
+            if plan is not None:
+                for suffix in list(self._exporters):
+                    self._export(plan, suffix, staging / f"{name}{suffix}")
+            (staging / TIMELINE).write_text(json.dumps(self.timeline, indent=1) + "\n", encoding="utf-8")
+
+    def _export(self, plan: FloorPlan, suffix: str, path: Path) -> None:
+        """Write one file; where its plugin fails, the run goes on without this kind of file."""
+        from floorplan_core.plugin_guard import PluginFailed
+
+        try:
+            self._exporters[suffix].write(plan, path)
+        except PluginFailed as error:
+            del self._exporters[suffix]
+            path.unlink(missing_ok=True)
+            self._observer.warning(str(error))
 
 
 def _advance(
@@ -130,19 +154,6 @@ def timeline_entry(
         "plan_s": round(seconds[1], 6),
         "note": note,
     }
-
-
-def _write_interval(
-    out: Path, name: str | None, plan: FloorPlan | None, timeline: list[dict[str, Any]]
-) -> None:
-    from floorplan_core.files import output_folder, writing
-    from floorplan_core.plugins import default_registry
-
-    with output_folder(out) as staging, writing(out):
-        if plan is not None:
-            for suffix in SUFFIXES:
-                default_registry().exporter(Path(f"plan{suffix}")).write(plan, staging / f"{name}{suffix}")
-        (staging / TIMELINE).write_text(json.dumps(timeline, indent=1) + "\n", encoding="utf-8")
 
 
 def _line(entry: dict[str, Any]) -> str:

@@ -279,7 +279,7 @@ def test_plugins_as_table_and_json(capfd: pytest.CaptureFixture[str], plugin_fol
     out, err = capfd.readouterr()
     listed = {p["name"]: p for p in json.loads(out)["plugins"]}
     assert listed["broken"]["error"] and not listed["broken"]["enabled"]
-    assert listed["drawings"]["enabled"] and err == ""
+    assert listed["svg"]["enabled"] and err == ""
     assert main.run(["plugins", "--quiet"]) == 0
     assert capfd.readouterr() == ("", "")
 

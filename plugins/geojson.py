@@ -1,4 +1,4 @@
-"""Exporters that ship: GeoJSON and the SVG drawing."""
+"""The GeoJSON exporter that ships."""
 
 from floorplan_core.api import Exporter, hookimpl
 
@@ -6,6 +6,5 @@ from floorplan_core.api import Exporter, hookimpl
 @hookimpl
 def floorcast_exporters() -> list[Exporter]:
     from floorplan_core.exporters.geojson import GeoJsonExporter
-    from floorplan_core.exporters.svg import SvgExporter
 
-    return [GeoJsonExporter(), SvgExporter()]
+    return [GeoJsonExporter()]
