@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -82,3 +83,43 @@ def _visible(
         seen += max(0.0, a - at)
         at = max(at, b)
     return seen + max(0.0, end - at)
+
+
+@dataclass(frozen=True)
+class Arm:
+    """A stretch of a region that is longer than wide, like a corridor."""
+
+    axis: int  # of the width
+    low: float  # metres along ``axis``: the two faces
+    high: float
+    start: float  # metres across: where the stretch begins and ends
+    end: float
+
+    @property
+    def width(self) -> float:
+        """Metres between the faces."""
+        return self.high - self.low
+
+
+def arms(polygon: Any, slimness: float) -> tuple[Arm, ...]:
+    """For each axis the longest arm of a polygon that is ``slimness`` times longer than wide, if any."""
+    corners = shapely.get_coordinates(polygon)
+    found = []
+    for axis in (0, 1):
+        ticks = np.unique(np.round(corners[:, 1 - axis], 6)).tolist()
+        stretches = [
+            Arm(axis, low, high, a, b)
+            for a, b in itertools.pairwise(ticks)
+            for low, high in _chords(polygon, axis, (a + b) / 2)
+        ]
+        slim = [arm for arm in stretches if arm.end - arm.start >= slimness * arm.width]
+        found += [max(slim, key=lambda arm: arm.end - arm.start)] if slim else []
+    return tuple(found)
+
+
+def _chords(polygon: Any, axis: int, at: float) -> list[tuple[float, float]]:
+    """Where the line ``at`` across ``axis`` runs inside the polygon."""
+    low, high = polygon.bounds[axis] - 1, polygon.bounds[axis + 2] + 1
+    ends = [(low, at), (high, at)] if axis == 0 else [(at, low), (at, high)]
+    parts = shapely.get_parts(polygon.intersection(shapely.LineString(ends)))
+    return [(p.bounds[axis], p.bounds[axis + 2]) for p in parts if p.length > STRAIGHT]

@@ -21,16 +21,8 @@ Float = NDArray[np.float64]
 
 LEADING = 1.32  # line height over font size
 SMALLEST = 0.64  # of the wanted size
-# Whether the text is turned, and its size: level text may shrink a little before it is turned.
-TRIES = (
-    (False, 1.0),
-    (False, 0.87),
-    (False, 0.76),
-    (True, 1.0),
-    (True, 0.82),
-    (False, SMALLEST),
-    (True, SMALLEST),
-)
+LEVEL, TURNED = (1.0, 0.87, 0.76), (1.0, 0.82)  # sizes to try: level text shrinks a little before it turns
+BOLD = 1.1  # width of the bold name over that of the regular face
 GRID = 13  # candidate spots per side of the region's bounds
 
 
@@ -56,7 +48,8 @@ class Placed:
 
 def block_size(lines: Sequence[Line]) -> tuple[float, float]:
     """Width and height of the lines set one under the other."""
-    return max(text_width(line.text, line.size) for line in lines), sum(line.size * LEADING for line in lines)
+    width = max(text_width(w.text, w.size) * (BOLD if w.style == "name" else 1.0) for w in lines)
+    return width, sum(line.size * LEADING for line in lines)
 
 
 def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Placed:
@@ -70,15 +63,22 @@ def place(lines: Sequence[Line], free: Any, pad: float, floor: Any = None) -> Pl
     if at_once is not None:
         return at_once
     spots = _spots(free, free if floor is None else floor, centre)
-    for count in range(len(lines), 0, -1):
-        for turned, shrink in TRIES:
-            scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
-            found = _try(scaled, free, spots, pad * shrink, turned)
-            if found is not None:
-                return found
+    for count, turned, shrink in _tries(len(lines)):
+        scaled = tuple(Line(w.text, w.size * shrink, w.style) for w in lines[:count])
+        found = _try(scaled, free, spots, pad * shrink, turned)
+        if found is not None:
+            return found
     smallest = tuple(Line(w.text, w.size * SMALLEST, w.style) for w in lines[:1])
     x, y = _pole(free)
     return Placed(smallest, x, y, False, False)
+
+
+def _tries(lines: int) -> list[tuple[int, bool, float]]:
+    """Number of lines, turned or not, size: in the order of what reads best."""
+    several = range(lines, min(lines, 2) - 1, -1)
+    order = [(n, False, size) for n in several for size in LEVEL]
+    order += [(n, True, size) for n in several for size in TURNED]
+    return order + [(1, False, size) for size in (*LEVEL, SMALLEST)] + [(1, True, SMALLEST)]
 
 
 def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float, turned: bool) -> Placed | None:

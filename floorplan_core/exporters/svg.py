@@ -53,11 +53,14 @@ def svg_text(plan: FloorPlan) -> str:
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
     _draw_rooms(canvas, sheet, plan)
-    labels = place_labels(sheet, plan, _swept(sheet, swings))
-    _draw_predicted(canvas, sheet, plan, label_ground(labels))
+    swept = _swept(sheet, swings)
+    labels = place_labels(sheet, plan, swept)
+    text = label_ground(labels)
+    _draw_predicted(canvas, sheet, plan, text)
     _draw_walls(canvas, sheet, walls)
     _draw_doors(canvas, sheet, walls, swings)
-    draw_dimensions(canvas, sheet, plan.regions)
+    openings = [sheet.geometry(shapely.box(*o.bounds)) for o in walls.openings]
+    draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]))
     with canvas.group(id="annotation", fill=palette.INK):
         draw_labels(canvas, labels)
         draw_blocks(canvas, sheet, plan)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.exporters import palette
-from floorplan_core.exporters.dimensions import Span, chain, differs, overall
+from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, overall
 from floorplan_core.exporters.sheet import Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
+from floorplan_core.exporters.svg_labels import is_rectangle
 from floorplan_core.model import Region
 
 Float = NDArray[np.float64]
@@ -19,8 +22,16 @@ Float = NDArray[np.float64]
 CHAIN_ROW, OVERALL_ROW = 6.5, 13.0  # mm from the walls
 TICK = 0.8  # mm, half a tick
 TEXT, TOTAL = 1.9, 2.2  # mm
-SMALLEST = 1.35  # mm
+SMALLEST = 1.35  # mm; stretches too short for such text are left out
+FILL = 0.95  # of the stretch that text may take
 RAISE = 0.8  # mm between text and line
+INSIDE = 1.75  # mm, widths inside the plan
+SLIM = 1.8  # arms this much longer than wide get a width
+PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9)  # along the arm, in the order in which they are tried
+SHORTEST = 5.0  # mm: narrower arms have no room for text
+KEEP_OFF = 3.4  # mm around a width inside the plan
+LONGEST = 7.0  # mm: extension lines are stubs; whole ones would hatch the sheet
+BEHIND = 0.3  # metres of wall that an extension line leaves free
 CLEAR = 1.6  # mm between a wall and an extension line
 LINE, EXTENSION = 0.13, 0.09  # mm
 
@@ -36,8 +47,11 @@ class Side:
 TOP, BOTTOM, LEFT, RIGHT = Side(1, 1), Side(1, -1), Side(0, -1), Side(0, 1)
 
 
-def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region]) -> None:
-    """Chains at the top and left, at the bottom and right where those say more, and overall lengths."""
+def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region], taken: Any) -> None:
+    """Chains at the top and left, and where they say more at the bottom and right; overall lengths; widths.
+
+    ``taken`` is ground on the page that the dimensions inside the plan keep off.
+    """
     with canvas.group(
         id="dimensions", stroke=palette.GREY, stroke_width=LINE, fill=palette.GREY, text_anchor="middle"
     ):
@@ -52,6 +66,31 @@ def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region]) 
                 _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT)
             if len(one) > 1:
                 _draw_row(canvas, sheet, first, total, OVERALL_ROW, TOTAL)
+        for region in (r for r in regions if not is_rectangle(r)):
+            _draw_arms(canvas, sheet, region, taken)
+
+
+def _draw_arms(canvas: SvgCanvas, sheet: Sheet, region: Region, taken: Any) -> None:
+    """The clear width of a corridor's arms, where there is room for it."""
+    for arm in arms(region.polygon, SLIM):
+        for share in PLACES:
+            at = arm.start + share * (arm.end - arm.start)
+            ends = np.array([[arm.low, at], [arm.high, at]])
+            a, b = sheet.to_page(ends if arm.axis == 0 else ends[:, ::-1])
+            ground = shapely.LineString([a, b]).buffer(KEEP_OFF, cap_style="flat")
+            if abs(b - a).sum() >= SHORTEST and not taken.intersects(ground):
+                _draw_width(canvas, a, b, arm)
+                break
+
+
+def _draw_width(canvas: SvgCanvas, a: Float, b: Float, arm: Arm) -> None:
+    canvas.line(a.tolist(), b.tolist())
+    for x, y in (a.tolist(), b.tolist()):
+        canvas.line((x - TICK, y + TICK), (x + TICK, y - TICK), stroke_width=2 * LINE, stroke=palette.INK)
+    x, y = ((a + b) / 2).tolist()
+    x, y = (x, y - RAISE) if arm.axis == 0 else (x - RAISE, y)
+    turn = 0.0 if arm.axis == 0 else -90.0
+    canvas.text(f"{arm.width:.2f}", x, y, INSIDE, turn=turn, stroke="none", fill=palette.INK)
 
 
 def _draw_row(
@@ -59,11 +98,16 @@ def _draw_row(
 ) -> None:
     at = _row(sheet, side, row)
     for span in spans:
+        if _text_size(span.length * sheet.mm, f"{span.length:.2f}", size) < SMALLEST:
+            continue
         a, b = _along(sheet, side, span.start), _along(sheet, side, span.end)
         canvas.line(_point(side, a, at), _point(side, b, at))
         for end in (a, b):
             _draw_end(canvas, sheet, side, end, at, span.face)
-        _draw_text(canvas, side, (a + b) / 2, at, f"{span.length:.2f}", abs(b - a), size)
+        x, y = _point(side, (a + b) / 2, at - RAISE)
+        text, turn = f"{span.length:.2f}", 0.0 if side.axis == 1 else -90.0
+        fitting = _text_size(abs(b - a), text, size)
+        canvas.text(text, x, y, fitting, turn=turn, stroke="none", fill=palette.INK)
 
 
 def _row(sheet: Sheet, side: Side, distance: float) -> float:
@@ -95,7 +139,8 @@ def _draw_end(canvas: SvgCanvas, sheet: Sheet, side: Side, along: float, at: flo
     wall = at - CLEAR * _outwards(side)
     if np.isfinite(face):
         page = float(sheet.to_page(np.array([face, face]))[0, side.axis])
-        wall = page + (CLEAR + 0.3 * sheet.mm) * _outwards(side)
+        near = max((at - page) * _outwards(side) - CLEAR - BEHIND * sheet.mm, 0.0)
+        wall = at - min(near, LONGEST) * _outwards(side)
     if (at - wall) * _outwards(side) > 0:
         canvas.line(
             _point(side, along, wall),
@@ -105,12 +150,6 @@ def _draw_end(canvas: SvgCanvas, sheet: Sheet, side: Side, along: float, at: flo
         )
 
 
-def _draw_text(
-    canvas: SvgCanvas, side: Side, along: float, at: float, text: str, room: float, size: float
-) -> None:
-    """The length beside its line, smaller where it is tight, left out where it would not fit at all."""
-    fitting = min(size, size * room / text_width(text, size) * 0.95)
-    if fitting < SMALLEST:
-        return
-    x, y = _point(side, along, at - RAISE)
-    canvas.text(text, x, y, fitting, turn=0.0 if side.axis == 1 else -90.0, stroke="none", fill=palette.INK)
+def _text_size(room: float, text: str, size: float) -> float:
+    """The size at which ``text`` fits between the ticks; ``size`` at most."""
+    return min(size, FILL * size * room / text_width(text, size))

@@ -47,10 +47,16 @@ def label_lines(region: Region) -> tuple[Line, ...]:
     lines = [Line(display_name(region), NAME, "name"), Line(f"{region.area:.2f} m²", AREA, "area")]
     if not region.name.isdigit():
         lines.append(Line(region.label, NOTE, "note"))
-    x0, y0, x1, y1 = region.polygon.bounds
-    if region.area >= RECTANGULAR * (x1 - x0) * (y1 - y0):
+    if is_rectangle(region):
+        x0, y0, x1, y1 = region.polygon.bounds
         lines.append(Line(f"{x1 - x0:.2f} × {y1 - y0:.2f}", NOTE, "note"))
     return tuple(lines)
+
+
+def is_rectangle(region: Region) -> bool:
+    """True where the region fills its bounds, so that two lengths describe it."""
+    x0, y0, x1, y1 = region.polygon.bounds
+    return bool(region.area >= RECTANGULAR * (x1 - x0) * (y1 - y0))
 
 
 def display_name(region: Region) -> str:

@@ -20,6 +20,7 @@ from floorplan_core.model.floor_plan import regions_mask
 NOMINAL = 0.15  # metres: thickness of a wall of which only one face is known
 TOUCHING = 0.05  # metres: regions nearer than this leave no room for a wall
 PARTY = 0.1  # metres: drawn thickness of a wall between regions that touch
+NEAR = 0.12  # metres: a door this far from the wall that it was found in still cuts it
 PROBE = 0.02  # metres: how far beside a side we look for its inside
 MIN_PREDICTED = 0.3  # m2: smaller predicted patches are clutter in a drawing (they stay in plan.geojson)
 
@@ -69,7 +70,7 @@ def _solid(regions: Sequence[Region], thickness: float, thickest: float) -> Any:
 
 
 def _party_walls(polygons: Sequence[Any]) -> list[Any]:
-    """A band along the edges at which two regions touch: the plan has no thickness there, the drawing needs one."""
+    """A band along the edges at which two regions touch: the drawing needs a thickness there."""
     tree = shapely.STRtree(list(polygons))
     bands = []
     for i, j in tree.query(
@@ -87,7 +88,7 @@ def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
     reach = _box(door.axis, door.offset - thickest, door.offset + thickest, door.start, door.end)
     parts = shapely.get_parts(solid.intersection(reach))
     line = shapely.LineString(door.line())
-    near = [p for p in parts if p.distance(line) <= door.thickness / 2 + PROBE and p.area > 0]
+    near = [p for p in parts if p.distance(line) <= door.thickness / 2 + NEAR and p.area > 0]
     half = max(door.thickness, thickness) / 2
     low, high = door.offset - half, door.offset + half
     if near:
@@ -124,8 +125,8 @@ def _strips(sides: Sequence[tuple[Region, RegionSide]], thickness: float, thicke
     polygons = np.array([region.polygon for region, _ in sides], dtype=object)
     out[shapely.contains_xy(polygons, probe[:, 0], probe[:, 1])] *= -1
     corner = thickness * along
-    a, b = a - PARTY * out, b - PARTY * out  # party walls reach a little into the floor
-    deep = np.stack([a, b, b + thickest * out, a + thickest * out], axis=1)
+    inside = PARTY * out  # party walls reach a little into the floor
+    deep = np.stack([a - inside, b - inside, b + thickest * out, a + thickest * out], axis=1)
     a, b = a - corner, b + corner
     around = np.stack([a, b, b + thickness * out, a + thickness * out], axis=1)
     return np.stack([shapely.polygons(deep), shapely.polygons(around)])
