@@ -44,12 +44,18 @@ def _draw_rule(canvas: SvgCanvas, sheet: Sheet, block: int, x: float, y: float) 
 def _draw_title(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
     with canvas.group(id="title-block"):
         _draw_rule(canvas, sheet, 0, x, y)
-        size = min(TITLE, TITLE * _width(sheet, 0) / text_width(plan.source, TITLE))
+        size = _fitting(plan.source, TITLE, _width(sheet, 0))
         canvas.text("Floor plan", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         canvas.text(plan.source, x, y + 11.2, size, font_weight="600")
         for i, text in enumerate(title_lines(sheet, plan)):
-            fitting = min(BODY, BODY * _width(sheet, 0) / text_width(text, BODY))
+            fitting = _fitting(text, BODY, _width(sheet, 0))
             canvas.text(text, x, y + 16.4 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
+
+
+def _fitting(text: str, size: float, room: float) -> float:
+    """The size at which ``text`` is no wider than ``room``; ``size`` at most."""
+    width = text_width(text, size)
+    return size if width <= room else size * room / width
 
 
 def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
@@ -78,7 +84,7 @@ def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
     fine = {"stroke": palette.GREY, "stroke_width": 0.1}
     others = sorted({r.label for r in plan.regions} - set(palette.TONES))
     floors = [("Room", palette.ROOM), ("Corridor", palette.CORRIDOR)]
-    floors += [(label.capitalize(), palette.OTHER) for label in others[:1]]
+    floors += [(", ".join(others).capitalize(), palette.OTHER)] if others else []
     dashed = {"stroke": palette.WALL, "stroke_width": 0.13, "stroke_dasharray": "1.1 0.7"}
     return [
         ("Wall, observed", {"fill": palette.WALL}),
@@ -100,7 +106,8 @@ def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: 
             if text == "Floor, predicted":
                 canvas.box(left, top, *SWATCH, fill=palette.ROOM.tint)
             canvas.box(left, top, *SWATCH, **look)
-            canvas.text(text, left + SWATCH[0] + 2, top + 2.4, BODY)
+            size = _fitting(text, BODY, half - SWATCH[0] - 3)
+            canvas.text(text, left + SWATCH[0] + 2, top + 2.4, size)
         _draw_door_swatches(canvas, x + half, y + 9.4, len(entries) - 4)
 
 

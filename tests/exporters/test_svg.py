@@ -186,3 +186,21 @@ def test_empty_plan_still_draws() -> None:
 def test_numbers_and_text() -> None:
     assert [number(v) for v in (1.0, -0.0001, 0.1234567, 12.5)] == ["1", "0", "0.123", "12.5"]
     assert printable("a\x00b\ud800c²") == "a b c²"
+
+
+def test_unknown_labels_empty_names_and_no_source() -> None:
+    rooms = [RoomSpec((0, 0, 4, 4), label="lobby"), RoomSpec((4.15, 0, 8, 4), label="")]
+    plan = make_plan(rooms, source="")
+    plan = replace(plan, regions=tuple(replace(r, name="", sides=()) for r in plan.regions))
+    shown = " ".join(texts(parse(plan)))
+    assert "lobby" in shown
+    assert "15.40 m²" in shown
+
+
+def test_touching_regions_get_a_wall_between_them() -> None:
+    plan = make_plan(
+        [RoomSpec((0, 0, 4, 4)), RoomSpec((4, 0, 8, 4))], [DoorSpec(0, 4.05, 1.0, 1.9, joins=(0, 1))]
+    )
+    walls = poche(plan)
+    assert walls.observed.contains(shapely.Point(4.0, 3.0))
+    assert not walls.observed.intersects(shapely.Point(4.0, 1.5))  # the door
