@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 Int = NDArray[np.int64]
 Index = NDArray[np.int32]
 Sums = tuple[Int, Int]  # running sums of D along y for every x, and along x for every y
-PATIENCE = 0.5
 _kernel = njit(cache=True, nogil=True)
 
 
@@ -128,11 +127,8 @@ def _cover_component(
     """Cover one component; writes the choices to ``chosen`` and ``gained`` and returns their number."""
     gain = np.array([_remaining(sums, spans[k]) for k in range(len(spans))])
     first_child, sibling, heap, size = _hide(codes, steps, total, gain)
-    n, stale = 0, 0
+    n = 0
     while missing > 0:
-        if stale > PATIENCE * size + 64:
-            size = _refresh(heap, size, sums, spans, total, gain, first_child, sibling)
-            stale = 0
         k = heap[0]
         now = _remaining(sums, spans[k])
         if now == gain[k]:
@@ -141,8 +137,6 @@ def _cover_component(
             missing -= now
             _take_out(sums, spans[k])
             now = 0
-        else:
-            stale += 1
         gain[k] = now
         if now == 0:
             size -= 1
@@ -192,33 +186,6 @@ def _hide(codes: Int, steps: Int, total: Int, gain: Int) -> tuple[Int, Int, Int,
             sibling[k] = first_child[parent[k]]
             first_child[parent[k]] = k
     return first_child, sibling, heap, size
-
-
-@_kernel
-def _refresh(
-    heap: Int, size: int, sums: Sums, spans: Index, total: Int, gain: Int, first_child: Int, sibling: Int
-) -> int:
-    """Count every rectangle of the heap again, drop the empty ones, and order it anew; returns its size."""
-    at = 0
-    while at < size:
-        k = heap[at]
-        now = _remaining(sums, spans[k])
-        child = first_child[k] if 0 < now < gain[k] else -1
-        if now == 0:
-            size -= 1
-            heap[at] = heap[size]
-            continue
-        if now < gain[k]:
-            first_child[k] = -1
-        while child >= 0:
-            heap[size] = child
-            size += 1
-            child = sibling[child]
-        gain[k] = now
-        at += 1
-    for at in range(size // 2 - 1, -1, -1):
-        _sift_down(heap, size, at, total, gain)
-    return size
 
 
 @_kernel
