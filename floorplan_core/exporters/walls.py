@@ -86,9 +86,11 @@ def _party_walls(polygons: Sequence[Any]) -> list[Any]:
 def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
     """The part of the wall that a door takes away: as deep as the wall is there."""
     reach = _box(door.axis, door.offset - thickest, door.offset + thickest, door.start, door.end)
-    parts = shapely.get_parts(solid.intersection(reach))
     line = shapely.LineString(door.line())
-    near = [p for p in parts if p.distance(line) <= door.thickness / 2 + NEAR and p.area > 0]
+    parts = [p for p in shapely.get_parts(solid.intersection(reach)) if p.area > 0]
+    parts.sort(key=lambda p: (round(p.distance(line), 3), p.bounds))
+    beside = [p for p in parts if p.distance(line) <= door.thickness / 2 + PROBE]
+    near = beside or [p for p in parts[:1] if p.distance(line) <= door.thickness / 2 + NEAR]
     half = max(door.thickness, thickness) / 2
     low, high = door.offset - half, door.offset + half
     if near:
