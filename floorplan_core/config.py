@@ -101,6 +101,13 @@ class PlanesConfig(Section):
         ge=0,
         le=20,
     )
+    wall_depth: float = setting(
+        0.18,
+        "m",
+        "Surfaces this near to a plane are the same wall: its other face, frames, leaves.",
+        ge=0,
+        le=1,
+    )
 
 
 class OccupancyConfig(Section):
@@ -136,8 +143,13 @@ class DoorsConfig(Section):
         4.0, "m", "Widest opening below a lintel that still separates two regions.", gt=0.5, le=10
     )
     max_beamless: float = setting(
-        2.0, "m", "Across a wider opening a shallow lintel is a beam below the ceiling, and separates nothing.", gt=0.5, le=10
+        2.0,
+        "m",
+        "Across a wider opening a shallow lintel is a beam below the ceiling, and separates nothing.",
+        gt=0.5,
+        le=10,
     )
+    lintel_depth: float = setting(0.45, "m", "A lintel less deep is shallow.", ge=0, le=2)
     min_response: float = setting(
         0.25, "", "Smallest response of the matched filter, 1 being a clean aperture.", ge=0, le=1
     )

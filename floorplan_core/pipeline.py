@@ -71,7 +71,9 @@ class FloorPlanner:
         self._names: tuple[Region, ...] = ()
         self._unused = 1  # the lowest number that no region of the run ever had
         self._pool = ThreadPoolExecutor(1)
-        self._lattice: float | None = None  # m between the points of a voxel map; 0: no lattice; None: not known yet
+        self._lattice: float | None = (
+            None  # m between the points of a voxel map; 0: no lattice; None: not known yet
+        )
         self.seconds: dict[str, float] = {}
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
@@ -226,7 +228,9 @@ def _cover_the_rest(
         return planes, cover
     rest = replace(grid, universe=cover.uncovered)
     narrow = config.model_copy(
-        update={"candidates": config.candidates.model_copy(update={"min_side": config.candidates.min_rest_side})}
+        update={
+            "candidates": config.candidates.model_copy(update={"min_side": config.candidates.min_rest_side})
+        }
     )
     candidates = _candidates([*paired, *extra], walls, rest, narrow, Observer())
     more = cover_free_space(candidates, rest, config.cover)

@@ -76,7 +76,7 @@ class WallProfile:
     start: float  # metres along the plane
     step: float  # metres
     low: NDArray[np.float64]  # points' surface seen below 2 m, as a fraction of the wall height there, 0 to 1
-    high: NDArray[np.float64]  # the same above 2 m (lintels, walls above furniture)
+    high: NDArray[np.float64]  # metres of surface seen above 2 m (lintels, walls above furniture)
     through: NDArray[np.float64]  # 0 to 1: share of the heights at which free space crosses the plane here
 
 

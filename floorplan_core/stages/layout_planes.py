@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig, PlanesConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
 from floorplan_core.model import Facing, LayoutPlane, LayoutSegment, WallProfile
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.layout_segments import SegmentRows, wall_band
@@ -37,6 +37,7 @@ def find_planes(
     planes: list[LayoutPlane] = []
     for facing in Facing:
         mine = [s for s in segments if s.facing == facing and s.structural]
+        wall = [s for s in segments if s.facing.axis == facing.axis and s.structural]
         if not mine:
             continue
         offset = np.array([s.offset for s in mine])
@@ -44,7 +45,7 @@ def find_planes(
         group = pierce_intervals(offset - reach, offset + reach)
         for g in range(int(group.max()) + 1):
             members = [s for s, k in zip(mine, group, strict=True) if k == g]
-            plane = _plane(f"p{len(planes) + 1}", facing, members, rows, evidence, config, doors)
+            plane = _plane(f"p{len(planes) + 1}", facing, members, wall, rows, evidence, config, doors)
             planes.append(plane)
             named.update({s.id: replace(s, plane=plane.id) for s in members})
     if not planes:
@@ -56,7 +57,7 @@ def find_planes(
 
 
 def _plane(
-    name: str, facing: Facing, members: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
+    name: str, facing: Facing, members: list[LayoutSegment], wall: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
     config: PlanesConfig, doors: DoorsConfig,
 ) -> LayoutPlane:  # fmt: skip
     weight = np.array([s.area for s in members])
@@ -64,8 +65,12 @@ def _plane(
     residual = float(
         np.sqrt(np.average([s.residual**2 + 4 * (s.offset - offset) ** 2 for s in members], weights=weight))
     )
-    profile = _profile(facing, offset, members, rows, evidence, doors)
-    observed = _runs(profile, (profile.low > 0) | (profile.high > 0))
+    observed = _runs(
+        own := _profile(facing, offset, members, rows, evidence, doors), (own.low > 0) | (own.high > 0)
+    )
+    # A wall is more than one plane: faces, frames and recessed leaves within its thickness close it together.
+    near = [s for s in wall if abs(s.offset - offset) <= config.wall_depth]
+    profile = _profile(facing, offset, near, rows, evidence, doors)
     plane = LayoutPlane(
         name,
         facing,
@@ -92,7 +97,7 @@ def _profile(
     low_mask = height_mask(_LOW_FROM, doors.crop_height)
     high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
     low = count_bits(bits & low_mask) / int(count_bits(low_mask))
-    high = count_bits(bits & high_mask) / max(int(count_bits(high_mask)), 1)
+    high = count_bits(bits & high_mask) * LEVEL
     return WallProfile(
         float(evidence.origin[1 - across]),
         evidence.fine,
@@ -137,7 +142,8 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
             joined[-1][1] = int(b)
         else:
             joined.append([int(a), int(b)])
-    kept = [r for r in joined if _stands(profile, solid, r)]
+    firm = solid | (lintel & ((profile.through < 0.3) | (profile.high >= doors.lintel_depth)))
+    kept = [t for r in joined if _stands(profile, solid, r) and (t := _trim(firm, r))]
     return profile.start + np.array(kept, dtype=np.float64).reshape(-1, 2) * profile.step
 
 
@@ -145,9 +151,15 @@ def _lintels(profile: WallProfile, solid: NDArray[np.bool_], doors: DoorsConfig)
     """Cells under wall that begins above 2 m. Across more than a double door, what is shallow is a beam."""
     lintel = (profile.high > 0) & ~solid
     out = lintel.copy()
-    for a, b in np.flatnonzero(np.diff(np.concatenate([[False], lintel, [False]]).astype(np.int8))).reshape(-1, 2):
+    for a, b in np.flatnonzero(np.diff(np.concatenate([[False], lintel, [False]]).astype(np.int8))).reshape(
+        -1, 2
+    ):
         wide = (b - a) * profile.step > doors.max_beamless
-        if wide and float(np.median(profile.high[a:b])) < 0.5 and float(profile.through[a:b].mean()) > 0.3:
+        if (
+            wide
+            and float(np.median(profile.high[a:b])) < doors.lintel_depth
+            and float(profile.through[a:b].mean()) > 0.3
+        ):
             out[a:b] = False
     return out
 
@@ -163,6 +175,12 @@ def _is_hidden(profile: WallProfile, a: int, b: int, config: PlanesConfig) -> bo
     """True where cells a to b are unseen rather than open."""
     through = profile.through[a:b]
     return (b - a) * profile.step <= config.bridge and float((through > 0.15).mean() if b > a else 0.0) < 0.2
+
+
+def _trim(firm: NDArray[np.bool_], run: list[int]) -> list[int] | None:
+    """A run without the lintels at its ends that no wall carries."""
+    inside = np.flatnonzero(firm[run[0] : run[1]])
+    return [run[0] + int(inside[0]), run[0] + int(inside[-1]) + 1] if len(inside) else None
 
 
 def _stands(profile: WallProfile, solid: NDArray[np.bool_], run: list[int]) -> bool:

@@ -19,7 +19,10 @@ _REACH = 4  # cells between the end of a wall and an uncovered cell
 
 
 def frontier_planes(
-    uncovered: NDArray[np.bool_], grid: OccupancyGrid, planes: Sequence[LayoutPlane], walls: NDArray[np.float64]
+    uncovered: NDArray[np.bool_],
+    grid: OccupancyGrid,
+    planes: Sequence[LayoutPlane],
+    walls: NDArray[np.float64],
 ) -> tuple[LayoutPlane, ...]:
     """Speculated planes along the straight frontiers of the uncovered patches and at the wall ends beside them.
 
