@@ -5,6 +5,7 @@ All lengths in metres, rounded to the millimetre so that shared faces share thei
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,6 +17,8 @@ from floorplan_core.simulation.spec import BuildingSpec
 Float = NDArray[np.float64]
 Rect = tuple[float, float, float, float]
 
+ROOMS_A_BLOCK = 4.0  # along one side of a block of a grid
+ASPECT = 1.5  # a grid's length over its depth
 TWO_ROWS = 7.5  # m: a core deeper than this holds two rows of rooms back to back
 JITTER = 0.12  # relative spread of widths and depths
 
@@ -183,8 +186,11 @@ def _oddness(spec: BuildingSpec, columns: int, rows: int, along: float) -> float
     rooms = 2 * columns * (rows + 1) * along
     x = columns * (along * spec.room_width + spec.corridor_width)
     y = rows * (1.9 * spec.room_depth + spec.corridor_width) + 2 * spec.room_depth
-    terms = np.log([rooms / _slots(spec), along / 4, x / y / 1.5])
-    return float(np.abs(terms) @ [3.0, 1.0, 0.7])
+    return (
+        3.0 * abs(math.log(rooms / _slots(spec)))
+        + abs(math.log(along / ROOMS_A_BLOCK))
+        + 0.7 * abs(math.log(x / y / ASPECT))
+    )
 
 
 def _flat(spec: BuildingSpec, t: float, rng: np.random.Generator) -> tuple[list[Rect], list[Strip]]:

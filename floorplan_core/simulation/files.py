@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.errors import OutputError
+from floorplan_core.files import output_folder, writing
 from floorplan_core.simulation.poses import quaternions
 
 if TYPE_CHECKING:
@@ -34,34 +33,22 @@ class SurveyPaths:
 
 
 def write_survey(survey: SimulatedSurvey, out: Path) -> SurveyPaths:
-    """Write all files into the folder ``out`` (made where missing); each appears whole or not at all.
+    """Write all files into the folder ``out`` (made where missing); all appear, or none.
 
     Raises:
         OutputError: no permission, no space, or ``out`` is a file.
     """
-    paths = SurveyPaths(
-        *(out / n for n in ("points.ply", "trajectory.tum", "trajectory_gt.tum", "truth.json"))
-    )
-    content: list[tuple[Path, Callable[[], bytes]]] = [
-        (paths.points, lambda: ply_bytes(survey.points, survey.scan_id)),
-        (paths.trajectory, lambda: tum_bytes(survey.stamps, survey.trajectory)),
-        (paths.trajectory_gt, lambda: tum_bytes(survey.stamps, survey.trajectory_gt)),
-        (paths.truth, lambda: json.dumps(survey.truth, indent=1).encode()),
+    content: list[tuple[str, Callable[[], bytes]]] = [
+        ("points.ply", lambda: ply_bytes(survey.points, survey.scan_id)),
+        ("trajectory.tum", lambda: tum_bytes(survey.stamps, survey.trajectory)),
+        ("trajectory_gt.tum", lambda: tum_bytes(survey.stamps, survey.trajectory_gt)),
+        ("truth.json", lambda: (json.dumps(survey.truth, indent=1) + "\n").encode()),
     ]
-    temporary = [path.with_name(f".{path.name}.part") for path, _ in content]
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        for part, (_, make) in zip(temporary, content, strict=True):
-            part.write_bytes(make())
-        for part, (path, _) in zip(temporary, content, strict=True):
-            os.replace(part, path)
-    except OSError as error:
-        raise OutputError(f"Cannot write the survey into {out}: {error.strerror}.") from error
-    finally:
-        for part in temporary:
-            if part.parent.is_dir():
-                part.unlink(missing_ok=True)
-    return paths
+    with output_folder(out) as staging:
+        for name, make in content:
+            with writing(out / name):
+                (staging / name).write_bytes(make())
+    return SurveyPaths(*(out / name for name, _ in content))
 
 
 def ply_bytes(points: Float, scan_id: NDArray[np.int32]) -> bytes:

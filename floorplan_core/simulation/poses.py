@@ -15,7 +15,7 @@ Float = NDArray[np.float64]
 TURN_RATE = 45.0  # degrees per second while looking around
 PAN_PERIOD = 9.0  # s of one panning cycle
 WOBBLE = 1.0  # degrees of roll and pitch while walking
-STATION_STEP = 7.0  # m between tripod stations in the circulation
+STATION_STEP = 5.0  # m between tripod stations in the circulation
 DRIFT_SCALE = 8.0  # m of path over which the drift changes
 HEADING_SPAN = 0.8  # m of path that the walking direction is averaged over
 
@@ -95,13 +95,15 @@ def _heading(path: Float, arc: Float, s: Float) -> Float:
 def _stations(walk: Walk, sensor: SensorSpec, rng: np.random.Generator) -> tuple[Float, Float, Float, Float]:
     """Tripods at one waypoint of each room and every few metres of circulation; level, any heading."""
     chosen: list[int] = []
+    halls: list[int] = []
     rooms: set[int] = set()
     for row, space in zip(walk.stops, walk.stop_space, strict=True):
         at = walk.path[row]
         if space > 0 and space not in rooms:
             rooms.add(int(space))
             chosen.append(int(row))
-        elif space == 0 and all(np.hypot(*(at - walk.path[c])) > STATION_STEP for c in chosen):
+        elif space == 0 and all(np.hypot(*(at - walk.path[c])) > STATION_STEP for c in halls):
+            halls.append(int(row))
             chosen.append(int(row))
     xy = walk.path[chosen]
     stamps = sensor.interval * np.arange(len(chosen), dtype=np.float64)

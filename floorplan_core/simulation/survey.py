@@ -94,8 +94,7 @@ def _cast_all(
     for rows in _batches(len(poses.stamps), spec):
         observer.check_cancelled()
         local, row = scan(scene, spec.sensor, poses.T_building_sensor[rows], rng)
-        T = estimated[rows][row]
-        world = np.einsum("nij,nj->ni", T[:, :3, :3], local) + T[:, :3, 3]
+        world = _placed(local, row, estimated[rows])
         keep = thin(world - estimated[0, :3, 3], row // WINDOW, spec.thin)
         parts.append(world[keep])
         ids.append((row[keep] + rows.start).astype(np.int32))
@@ -104,6 +103,15 @@ def _cast_all(
     kept = _sample(len(points), spec)
     observer.stage_finished("rays", time.perf_counter() - started)
     return points[kept], scan_id[kept]
+
+
+def _placed(local: NDArray[np.float32], row: NDArray[np.int32], T: Float) -> Float:
+    """(N, 3) sensor-frame points, ordered by row, moved by the pose ``T`` of their row."""
+    world = np.empty(local.shape)
+    ends = np.searchsorted(row, np.arange(len(T) + 1))
+    for pose, a, b in zip(T, ends, ends[1:], strict=False):
+        world[a:b] = local[a:b] @ pose[:3, :3].T + pose[:3, 3]
+    return world
 
 
 def _batches(count: int, spec: SurveySpec) -> Iterator[slice]:

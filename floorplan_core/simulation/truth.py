@@ -1,4 +1,23 @@
-"""The documented ``truth.json``: rooms, doors, dimensions, and some more about the simulated building."""
+"""The documented ``truth.json``, and what it holds beyond the contract.
+
+Positions are metres in the building's own axes; ``T_world_building`` (4x4, row-major) takes them to world:
+yaw about z first, then ``pitch_deg`` about y, then ``roll_deg`` about x, then ``offset``.
+
+=================  ========================================================================================
+``rooms[]``        ``kind`` (room, corridor), ``polygon``, ``entered``; more: ``use`` (office, hall, ...),
+                   ``holes`` (rings, where the circulation runs around a core), ``seen`` (share of the floor
+                   that some pose had in free sight at the sensor's height)
+``doors[]``        ``bounds``, ``joins``; more: ``width``, ``height``, ``kind`` (door, double, opening: no
+                   leaf), ``open``, ``axis`` (0: the wall's normal is x)
+``dimensions[]``   ``id`` "room.number" with the axis, ``from``, ``to``, ``metres``; more: ``room``
+``windows[]``      ``bounds``, ``room``, ``sill``, ``head``, ``axis``
+``columns[]``      x0, y0, x1, y1; they stand in the rooms and are no part of the polygons
+``furniture[]``    ``kind``, ``room``, ``bounds`` x0, y0, z0, x1, y1, z1
+others             ``wall_height``, ``exterior_wall``, ``seed``, ``spec`` (all settings of the run)
+=================  ========================================================================================
+
+Halls behind an opening with a lintel are rooms; lobbies without any wall towards the corridor are part of it.
+"""
 
 from __future__ import annotations
 

@@ -223,7 +223,7 @@ def test_a_stop_is_heeded() -> None:
 
 def test_a_file_in_the_way_is_one_sentence(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("a file")
-    with pytest.raises(OutputError, match="Cannot write the survey"):
+    with pytest.raises(OutputError, match="Cannot write"):
         simulate(small(), tmp_path / "out")
 
 
