@@ -118,7 +118,8 @@ def _trajectory(
 
 def finite_sample(sample: RawChunk, name: str) -> tuple[Float, NDArray[np.int32] | None]:
     """(N, 3) usable points of the sample in file coordinates, and their scan ids."""
-    points = np.asarray(sample.points, dtype=np.float64)
+    with np.errstate(invalid="ignore"):  # signalling NaN
+        points = np.asarray(sample.points, dtype=np.float64)
     good = np.isfinite(points).all(axis=1) & (np.abs(points) < LIMIT / min(METRES_PER_UNIT.values())).all(
         axis=1
     )

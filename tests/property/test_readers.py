@@ -72,26 +72,36 @@ def test_random_bytes(tmp_path, suffix, head, body):
     assert peak < MEMORY
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=250, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_damaged_files(tmp_path, data):
     """A good file cut anywhere, or with some bytes changed."""
     points = np.random.default_rng(0).uniform(0, 5, (200, 3)).astype("f4")
-    kind = data.draw(st.sampled_from(["ply", "npz"]))
+    kind = data.draw(st.sampled_from(["ply", "npz", "npy"]))
     path = tmp_path / f"a.{kind}"
-    if kind == "npz":
+    if kind == "npy":
+        np.save(path, points)
+    elif kind == "npz":
         np.savez_compressed(path, points=points, scan_id=np.arange(200))
     else:
         path.write_bytes(HEADS[".ply"][1].replace(b"ascii", b"binary_little_endian").replace(b"3", b"200", 1))
         path.write_bytes(path.read_bytes() + points.tobytes())
     raw = bytearray(path.read_bytes())
+    last = data.draw(st.sampled_from([120, len(raw) - 1]))  # headers are where bytes matter most
     for _ in range(data.draw(st.integers(0, 4))):
-        raw[data.draw(st.integers(0, len(raw) - 1))] = data.draw(st.integers(0, 255))
-    path.write_bytes(bytes(raw[: data.draw(st.integers(0, len(raw)))]))
+        raw[data.draw(st.integers(0, last))] = data.draw(st.integers(0, 255))
+    if data.draw(st.booleans()):
+        raw = raw[: data.draw(st.integers(0, len(raw)))]
+    path.write_bytes(bytes(raw))
+    tracemalloc.start()
     try:
         read_all(path)
     except FloorPlanError as error:
         assert "\n" not in str(error)
+    finally:
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+    assert peak < MEMORY
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
