@@ -28,7 +28,9 @@ def intervals(reconstruction: Reconstruction, every: float) -> Iterator[Interval
     """
     trajectory = _trajectory(reconstruction)
     stamps = trajectory.stamps - trajectory.stamps[0]
-    number = np.floor(stamps / every).astype(np.int64)
+    number = np.maximum(np.ceil(stamps / every) - 1, 0).astype(
+        np.int64
+    )  # a scan on the clock ends its interval
     lengths = path_lengths(trajectory)
     for index, group in groupby(_pieces(reconstruction, number), key=lambda piece: piece[0]):
         end = min((index + 1) * every, float(stamps[-1]))

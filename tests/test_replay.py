@@ -39,16 +39,17 @@ def replayed(run: Reconstruction, every: float) -> list[tuple[float, float, list
 
 def test_intervals_end_on_the_clock_and_the_last_one_with_the_run() -> None:
     run = survey([0, 0, 1, 2, 3, 3, 4], [100, 104, 110, 119, 123], cuts=[3, 5])
-    assert replayed(run, 10) == [(10, 1, [0, 0, 1]), (20, 3, [2, 3, 3]), (23, 4, [4])]
+    assert replayed(run, 10) == [(10, 2, [0, 0, 1, 2]), (20, 3, [3, 3]), (23, 4, [4])]
 
 
 def test_intervals_without_points_are_left_out() -> None:
     assert replayed(survey([0, 2], [0, 50, 99]), 10) == [(10, 0, [0]), (99, 2, [2])]
+    assert replayed(survey([0, 1], [0, 30]), 10) == [(10, 0, [0]), (30, 1, [1])]
 
 
 def test_a_file_in_another_order_is_sorted() -> None:
-    run = survey([2, 0, 1, 0], [0, 10, 20], cuts=[1])
-    assert replayed(run, 10) == [(10, 0, [0, 0]), (20, 1, [1]), (20, 2, [2])]
+    run = survey([2, 0, 1, 0], [0, 11, 21], cuts=[1])
+    assert replayed(run, 10) == [(10, 0, [0, 0]), (20, 1, [1]), (21, 2, [2])]
 
 
 def test_a_survey_that_does_not_say_when_is_refused() -> None:
