@@ -5,7 +5,8 @@ growth   candidates and cover on buildings from 200 to 20,000 m2, and the expone
 office   from planes to labels for 80 x 40 m and 100 planes a facing
 optimum  weight of the greedy cover against the true optimum on 100 buildings
 
-Times are the best of a few runs after one that warms up. Tables go to the terminal, figures to
+Times are the best of a few runs after one that warms up: wall time for ``stages``, CPU time of the one thread
+for the others. Tables go to the terminal, figures to
 ``benchmarks/results/NAME.json``; where there are figures of an earlier run they stand beside the new ones.
 """
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.buildings import Layout, building, with_planes
-from benchmarks.record import Outcome, best_seconds
+from benchmarks.record import Outcome, cpu_seconds
 from floorplan_core.config import Config
 from floorplan_core.model import CandidateSet, Facing, LayoutPlane, RectangleCover
 from floorplan_core.stages.candidates import enumerate_candidates
@@ -38,28 +38,17 @@ def growth() -> Outcome:
         made = candidates_of(layout)
         chosen = cover_of(layout, made)
         times = [
-            best_seconds(lambda layout=layout: candidates_of(layout)),
-            best_seconds(lambda layout=layout, made=made: cover_of(layout, made)),
+            cpu_seconds(lambda layout=layout: candidates_of(layout)),
+            cpu_seconds(lambda layout=layout, made=made: cover_of(layout, made)),
         ]
         planes = "/".join(str(len(p)) for p in layout.planes)
         figures.append((layout.area, len(made), *times, sum(times)))
-        rows.append(
-            (f"{layout.area:.0f}", layout.rooms, planes, made.enumerated, len(made), len(chosen))
-            + tuple(f"{1000 * t:.1f}" for t in times)
-        )
+        counts = (layout.rooms, planes, made.enumerated, len(made), len(chosen))
+        rows.append((f"{layout.area:.0f}", *counts, *(f"{1000 * t:.1f}" for t in times)))
     area, *curves = np.log(np.array(figures)).T
     slopes = [float(np.polyfit(area, curve, 1)[0]) for curve in curves]
     names = ("valid rectangles", "candidates", "cover", "candidates + cover")
-    header = (
-        "area m2",
-        "rooms",
-        "planes E/W/N/S",
-        "enumerated",
-        "valid",
-        "chosen",
-        "candidates ms",
-        "cover ms",
-    )
+    header = ("area m2", "rooms", "planes", "enumerated", "valid", "chosen", "candidates ms", "cover ms")
     return Outcome(
         "growth with floor area",
         header,
@@ -81,10 +70,10 @@ def office() -> Outcome:
 
     found = regions_of()
     seconds = {
-        "candidates": best_seconds(lambda: candidates_of(layout)),
-        "cover": best_seconds(lambda: cover_of(layout, made)),
-        "regions": best_seconds(regions_of),
-        "labels": best_seconds(lambda: label_regions(found, PaperClassifier(), CONFIG)),
+        "candidates": cpu_seconds(lambda: candidates_of(layout)),
+        "cover": cpu_seconds(lambda: cover_of(layout, made)),
+        "regions": cpu_seconds(regions_of),
+        "labels": cpu_seconds(lambda: label_regions(found, PaperClassifier(), CONFIG)),
     }
     seconds["total"] = sum(seconds.values())
     counts = {"valid": len(made), "chosen": len(chosen), "regions": len(found)}
@@ -126,7 +115,7 @@ def optimum() -> Outcome:
             raise AssertionError(f"building {seed}: the covers hold different cells")
         ratios.append(greedy.weight / best.weight)
         counts.append((len(greedy), len(best)))
-        seconds.append(best_seconds(lambda m=made, g=layout.grid: greedy_cover(m, g, CONFIG.cover), 1))
+        seconds.append(cpu_seconds(lambda m=made, g=layout.grid: greedy_cover(m, g, CONFIG.cover), 1))
     shares = [0, 25, 50, 75, 90, 100]
     rows = [(f"{p} %", f"{np.percentile(ratios, p):.4f}") for p in shares]
     return Outcome(

@@ -1,4 +1,4 @@
-"""The whole job on a real-sized survey, stage by stage, beside the time that Open3D needs to read the file."""
+"""The whole job on a real-sized survey, stage by stage, beside Open3D's time to read the file."""
 
 from __future__ import annotations
 

@@ -35,8 +35,7 @@ def lazy_greedy(spans: Index, codes: Int, steps: Int, total: Int, weights: Int) 
     :param weights: (nx', ny') free cells.
     """
     labels, missing = components(spans, weights)
-    order = np.argsort(labels, kind="stable")
-    starts = np.searchsorted(labels[order], np.arange(len(missing) + 1))
+    order, starts = _by_component(labels, len(missing))
     chosen, gained = _cover_all(spans[order], codes[order], steps, total[order], weights, starts, missing)
     rows, cells = _by_key(order[chosen], gained, total)
     return rows, cells
@@ -60,6 +59,22 @@ def components(spans: Index, weights: Int) -> tuple[Int, Int]:
         if a < b and c < d:
             labels[k] = label[a, c]
     return labels, missing[:n].copy()
+
+
+@_kernel
+def _by_component(labels: Int, n: int) -> tuple[Int, Int]:
+    """Rows sorted by component, stable, the empty ones left out; (n + 1,) where each component begins."""
+    starts = np.zeros(n + 1, np.int64)
+    for label in labels:
+        if label >= 0:
+            starts[label + 1] += 1
+    starts = np.cumsum(starts)
+    order, at = np.empty(starts[n], np.int64), starts.copy()
+    for k in range(len(labels)):
+        if labels[k] >= 0:
+            order[at[labels[k]]] = k
+            at[labels[k]] += 1
+    return order, starts
 
 
 @_kernel
