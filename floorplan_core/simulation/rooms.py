@@ -74,7 +74,7 @@ def _slots(strip: Strip, spec: BuildingSpec, t: float, rng: np.random.Generator)
     weights = rng.choice(WEIGHTS, count)
     inner = length - (count - 1) * t
     widths = MIN_ROOM + (inner - count * MIN_ROOM) * weights / weights.sum() if count > 1 else [inner]
-    ends = np.cumsum(widths) + t * np.arange(count)
+    ends = np.round(np.cumsum(widths) + t * np.arange(count), 3)  # then every wall is exactly t thick
     ends[-1] = length
     starts = np.concatenate([[0.0], ends[:-1] + t])
     return [Slot(whole.plan(mm(a), 0, mm(b), depth), strip.side) for a, b in zip(starts, ends, strict=True)]

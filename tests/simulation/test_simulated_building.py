@@ -220,3 +220,19 @@ def test_merge_cells_covers_the_mask_once() -> None:
 def test_values_out_of_bounds_are_refused(make: object, words: str) -> None:
     with pytest.raises(UsageError, match=words):
         make()  # type: ignore[operator]
+
+
+def test_rounding_to_millimetres_never_thins_a_wall() -> None:
+    spec = BuildingSpec(
+        style="grid",
+        rooms=8,
+        room_width=12,
+        room_depth=8,
+        interior_wall=0.1,
+        furniture="none",
+        nested_rooms=0,
+    )
+    for seed in range(30):
+        polygons = [s.polygon for s in make_building(spec, np.random.default_rng(seed)).spaces]
+        near = shapely.STRtree(polygons).query(polygons, predicate="dwithin", distance=0.1 - 1e-6)
+        assert (near[0] == near[1]).all()
