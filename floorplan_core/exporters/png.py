@@ -93,17 +93,14 @@ class PlanPngExporter:
 def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (a)."""
     view = view or fit_view(plan_bounds(plan))
-    pixels = paper(view, WHITE)
+    codes, colours = paper(view), (WHITE, RED_LINE, GREEN_LINE, DIM, RED, GREEN)
     for plane in plan.planes:
-        _dotted(pixels, view, plane.facing.axis, plane.offset, (RED_LINE, GREEN_LINE)[plane.facing.axis])
+        _dotted(codes, view, plane.facing.axis, plane.offset, 1 + plane.facing.axis)
     points = plan.wall_points
-    for colour, chosen in (
-        (DIM, points.facing < 0),
-        (RED, (points.facing == 0) | (points.facing == 1)),
-        (GREEN, points.facing >= 2),
-    ):
-        _dots(pixels, view, points.xy[chosen], colour)
-    image, draw = finish(pixels, view, WHITE)
+    kind = np.where(points.facing < 0, 3, 4 + points.facing // 2)
+    for code in (3, 4, 5):
+        _dots(codes, view, points.xy[kind == code], code)
+    image, draw = finish(codes, colours, view)
     count = [sum(p.facing.axis == axis for p in plan.planes) for axis in (0, 1)]
     entries = [(f"x planes ({count[0]})", RED), (f"y planes ({count[1]})", GREEN), ("other points", DIM)]
     _draw_strip(draw, view, entries, INK)
@@ -117,8 +114,8 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     state = np.where(grid.states == FREE, 1, np.where(regions_mask(plan.regions, grid), 2, 0)).astype(
         np.uint8
     )
-    colours = np.array([BLACK, FREE_KNOWN, FREE_GUESSED], dtype=np.uint8)
-    image, draw = finish(colours[view.sample(state, grid.origin, grid.cell, 0)], view, BLACK)
+    codes = view.sample(state, grid.origin, grid.cell, 0)
+    image, draw = finish(codes, (BLACK, FREE_KNOWN, FREE_GUESSED), view)
     for region in plan.regions:
         draw_rings(draw, view, region.polygon, OUTLINE, WALL_LINE - 1)
     entries = [("free, known", FREE_KNOWN), ("free, speculated", FREE_GUESSED), ("plan", OUTLINE)]
@@ -129,7 +126,7 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
 def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (c)."""
     view = view or fit_view(plan_bounds(plan))
-    image, draw = finish(_floors(plan, view), view, WHITE)
+    image, draw = finish(_floors(plan, view), _floor_colours(), view)
     for region in plan.regions:
         _draw_sides(draw, view, region)
     for door in plan.doors:
@@ -148,27 +145,27 @@ def _draw_strip(draw: Any, view: View, entries: list[tuple[str, Any]], ink: Colo
     draw_scale_bar(draw, view, view.width - 24, view.height + view.strip - 10 - ROW / 2 + 10, ink)
 
 
-def _dots(pixels: NDArray[np.uint8], view: View, xy: NDArray[Any], colour: Colour) -> None:
+def _dots(codes: NDArray[np.uint8], view: View, xy: NDArray[Any], code: int) -> None:
     """Paint points as small squares."""
     at = np.floor((xy - view.origin) * view.scale).astype(np.int64)
     for dx in range(POINT):
         for dy in range(POINT):
             x, y = at[:, 0] + dx, at[:, 1] + dy
             ok = (x >= 0) & (y >= 0) & (x < view.width) & (y < view.height)
-            pixels[y[ok], x[ok]] = colour
+            codes[y[ok], x[ok]] = code
 
 
-def _dotted(pixels: NDArray[np.uint8], view: View, axis: int, offset: float, colour: Colour) -> None:
+def _dotted(codes: NDArray[np.uint8], view: View, axis: int, offset: float, code: int) -> None:
     """A dotted line across the whole picture."""
     at = int(np.floor((offset - view.origin[axis]) * view.scale))
-    lines = np.swapaxes(pixels, 0, 1) if axis == 0 else pixels
+    lines = np.swapaxes(codes, 0, 1) if axis == 0 else codes
     if 0 <= at < len(lines):
         for i in range(DOT):
-            lines[max(0, at - 1) : at + 1, i::DOT_STEP] = colour
+            lines[max(0, at - 1) : at + 1, i::DOT_STEP] = code
 
 
 def _floors(plan: FloorPlan, view: View) -> NDArray[np.uint8]:
-    """Regions in the colour of their label; where they are predicted, lighter and hatched."""
+    """Codes of :func:`_floor_colours`: regions by their label; where they are predicted, hatched."""
     code = np.zeros((view.height, view.width), dtype=np.uint8)
     for region in plan.regions:
         window, inside = view.window(region.polygon)
@@ -176,9 +173,18 @@ def _floors(plan: FloorPlan, view: View) -> NDArray[np.uint8]:
     rows, columns = np.indices(code.shape, sparse=True)
     gap = (rows + columns) % HATCH_STEP >= HATCH
     pale = view.sample(predicted_cells(plan), plan.grid.origin, plan.grid.cell, False) & gap
-    lighter = [tuple(round(c + LIGHTER * (255 - c)) for c in colour) for colour in FLOORS]
-    table = np.array([WHITE, *FLOORS, WHITE, *lighter], dtype=np.uint8)
-    return np.take(table, code + (1 + len(FLOORS)) * pale, axis=0)
+    code[pale & (code > 0)] += len(FLOORS)
+    return code
+
+
+def _floor_colours() -> list[Colour]:
+    """The ground, the floors, and the same floors lighter."""
+    lighter = [(_lighter(r), _lighter(g), _lighter(b)) for r, g, b in FLOORS]
+    return [WHITE, *FLOORS, *lighter]
+
+
+def _lighter(channel: int) -> int:
+    return round(channel + LIGHTER * (255 - channel))
 
 
 def _draw_sides(draw: Any, view: View, region: Region) -> None:
