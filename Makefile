@@ -26,7 +26,7 @@ check: $(READY) ## lint, format, types, architecture
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/lint-imports
+	$(BIN)/lint-imports --no-cache
 
 format: $(READY) ## put the code into the house format
 	$(BIN)/ruff check --fix .
