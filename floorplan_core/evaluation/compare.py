@@ -12,7 +12,7 @@ from floorplan_core.evaluation.doors import door_scores
 from floorplan_core.evaluation.free_space import free_space_scores, observed_scores
 from floorplan_core.evaluation.plan_file import Float, PlanFile, read_plan
 from floorplan_core.evaluation.report import EvaluationReport
-from floorplan_core.evaluation.truth import Truth
+from floorplan_core.evaluation.truth import Exposure, Truth
 from floorplan_core.evaluation.truths import load_truth
 
 
@@ -31,7 +31,8 @@ def compare(plan: PlanFile, truth: Truth) -> EvaluationReport:
     matches = room_metrics.match_rooms(local.regions, truth.rooms, areas)
     homes = room_metrics.region_homes(truth.rooms, areas)
     measured = measure(truth.dimensions, local.regions)
-    entered = in_entered_rooms(measured, truth)
+    entered = in_rooms(measured, truth, ("entered",))
+    expected = in_rooms(measured, truth, ("entered", "glimpsed"))
     right, judged = room_metrics.label_accuracy(matches)
     doors = door_scores(local.doors, truth.doors) if truth.rooms else None
     observed = None if truth.observed is None else observed_scores(plan, truth.observed)
@@ -39,7 +40,7 @@ def compare(plan: PlanFile, truth: Truth) -> EvaluationReport:
         plan=plan.name,
         truth=truth.source,
         dimensions=dimension_scores(entered) if entered else None,
-        dimensions_all=dimension_scores(measured) if measured else None,
+        dimensions_all=dimension_scores(expected) if expected else None,
         rooms=room_metrics.room_scores(matches, homes, ("entered", "glimpsed")),
         rooms_entered=room_metrics.room_scores(matches, homes, ("entered",)),
         rooms_glimpsed=room_metrics.room_scores(matches, homes, ("glimpsed",)),
@@ -70,11 +71,13 @@ def yaw_error(yaw: float | None, truth: Truth) -> float | None:
     return float(abs(np.degrees(turn)))
 
 
-def in_entered_rooms(measured: tuple[MeasuredDimension, ...], truth: Truth) -> tuple[MeasuredDimension, ...]:
-    """The dimensions whose middle lies in a room that the sensor entered."""
+def in_rooms(
+    measured: tuple[MeasuredDimension, ...], truth: Truth, classes: tuple[Exposure, ...]
+) -> tuple[MeasuredDimension, ...]:
+    """The dimensions whose middle lies in a room of the given classes."""
     import shapely
 
-    entered = shapely.union_all([r.polygon for r in truth.rooms if r.exposure == "entered"])
-    shapely.prepare(entered)
+    area = shapely.union_all([r.polygon for r in truth.rooms if r.exposure in classes])
+    shapely.prepare(area)
     middles = [0.5 * np.add(d.start, d.end) for d in truth.dimensions]
-    return tuple(m for m, xy in zip(measured, middles, strict=True) if shapely.intersects_xy(entered, *xy))
+    return tuple(m for m, xy in zip(measured, middles, strict=True) if shapely.intersects_xy(area, *xy))

@@ -97,6 +97,7 @@ def test_hidden_rooms_are_neither_expected_nor_forbidden():
         report = scored(plan, document)
         assert report.rooms_glimpsed is None
         assert (report.rooms.precision, report.rooms.recall) == (1, 1)
+        assert report.dimensions_all.total == 4  # not the hidden room's
 
 
 def test_a_region_outside_the_building_costs_precision_and_area():
