@@ -1,4 +1,4 @@
-"""Makes the virtual environment for ``make``: system packages where they are missing, then the project itself.
+"""Makes the environment for ``make``: system packages where they are missing, then the project itself.
 
 Uses the standard library only. Where it may not install system packages, it says in one line what to run.
 """
@@ -95,10 +95,14 @@ def make_environment(folder: Path) -> Path | None:
 
 def install_project(python: Path) -> int:
     """Install Floorcast with its pinned dependencies into the environment of ``python``."""
-    sys.stderr.write("Installing Floorcast and what it needs (about 500 MB, some minutes the first time) ...\n")
+    sys.stderr.write(
+        "Installing Floorcast and what it needs (about 500 MB, some minutes the first time) ...\n"
+    )
     pip = [str(python), "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--retries", "5"]
     if not run([*pip, "--editable", f".[{EXTRAS}]"]):
-        return say("pip could not install the dependencies (see above); check the network and run make again.")
+        return say(
+            "pip could not install the dependencies (see above); check the network and run make again."
+        )
     return 0
 
 

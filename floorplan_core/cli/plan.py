@@ -87,9 +87,18 @@ def make_plan(
     started = perf_counter()
     reconstruction = open_input(survey, trajectory, config, observer)
     clock = {"read": perf_counter() - started}
+    announce_compilation(observer)
     from floorplan_core.pipeline import process  # after opening: bad input is answered at once
 
     return process(timed_chunks(reconstruction, clock), config, observer), clock
+
+
+def announce_compilation(observer: CommandObserver) -> None:
+    """Say why the very first run takes longer: no compiled kernel lies beside the code yet."""
+    import floorplan_core
+
+    if next(Path(floorplan_core.__file__).parent.rglob("*.nbi"), None) is None:
+        observer.console.message("The first run compiles the kernels, which takes about a minute.")
 
 
 def replan(

@@ -48,16 +48,18 @@ def watch(
     debug: DebugFlag = False,
 ) -> None:
     """Replay a run and write a numbered plan each interval, timeline.json and a film strip."""
-    from floorplan_core.cli.plan import open_input
+    from floorplan_core.cli.plan import announce_compilation, open_input
     from floorplan_core.errors import NoPlanError
     from floorplan_core.files import output_folder
-    from floorplan_core.pipeline import FloorPlanner
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
     observer = console.observer(bars=False)  # a line for each interval instead
     with output_folder(out):  # made now, and removed again if nothing comes of it
         run = open_input(survey, trajectory, settings, observer)
+        announce_compilation(observer)
+        from floorplan_core.pipeline import FloorPlanner  # after opening: bad input is answered at once
+
         recorder = Recorder(out, observer)
         planner = FloorPlanner(settings, observer, run.name, run.local_frame)
         recorder.record(run, planner, every)
