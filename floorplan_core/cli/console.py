@@ -106,6 +106,7 @@ class StageBars:
             console=RichConsole(stderr=True),
         )
         self._tasks: dict[str, TaskID] = {}
+        self._seconds: dict[str, float] = {}  # a stage may take several steps
 
     def start(self, stage: str, total: int | None) -> None:
         """Begin (or begin again) the line of ``stage``."""
@@ -120,9 +121,10 @@ class StageBars:
             self.progress.update(self._tasks[stage], completed=done)
 
     def finish(self, stage: str, seconds: float) -> None:
-        """Fill the bar of ``stage`` and note its seconds."""
+        """Fill the bar of ``stage`` and note the seconds of all its steps so far."""
         if stage not in self._tasks:
             self.start(stage, 1)
+        self._seconds[stage] = seconds = self._seconds.get(stage, 0.0) + seconds
         self.progress.update(self._tasks[stage], total=1, completed=1, note=f"{seconds:6.2f} s")
 
 

@@ -29,7 +29,7 @@ def evaluate(
 
     console = Console(context, as_json=as_json, quiet=quiet)
     report = compare(plan, truth)
-    table = Table(title=f"{plan} against {truth}")
+    table = Table(title=f"{plan} against {truth}", show_header=False)
     rows = report.rows()
     for index in range(max(map(len, rows), default=0)):
         table.add_column(justify="left" if index == 0 else "right")
