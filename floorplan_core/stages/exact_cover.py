@@ -25,7 +25,7 @@ from floorplan_core.config import CoverConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.model import CandidateSet, OccupancyGrid, RectangleCover
 from floorplan_core.observer import Observer
-from floorplan_core.stages.lazy_greedy import components
+from floorplan_core.stages.cover_components import components
 from floorplan_core.stages.set_cover import compress, make_cover
 
 Int = NDArray[np.int64]

@@ -19,9 +19,14 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.stages.cover_components import by_component, components
+
 Int = NDArray[np.int64]
 Index = NDArray[np.int32]
+Keys = tuple[Int, Int, Int]  # numerator and denominator of the ratio, and what larger values of win ties
+Tree = tuple[Int, Int]  # first child and next sibling of each rectangle, -1 where there is none
 Sums = tuple[Int, Int]  # running sums of D along y for every x, and along x for every y
+BEFORE_TIES = 1 << 60  # larger than any A
 _kernel = njit(cache=True, nogil=True)
 
 
@@ -35,87 +40,10 @@ def lazy_greedy(spans: Index, codes: Int, steps: Int, total: Int, weights: Int) 
     :param weights: (nx', ny') free cells.
     """
     labels, missing = components(spans, weights)
-    order, starts = _by_component(labels, len(missing))
+    order, starts = by_component(labels, len(missing))
     chosen, gained = _cover_all(spans[order], codes[order], steps, total[order], weights, starts, missing)
     rows, cells = _by_key(order[chosen], gained, total)
     return rows, cells
-
-
-@_kernel
-def components(spans: Index, weights: Int) -> tuple[Int, Int]:
-    """(K,) component of each rectangle, -1 where it is empty; (n,) free cells to cover in each component."""
-    covered = _depth(spans, weights.shape, 0, 0)
-    right, above = _depth(spans, weights.shape, 1, 0), _depth(spans, weights.shape, 0, 1)
-    label = np.full(weights.shape, -1, np.int64)
-    stack, missing, n = np.empty((weights.size, 2), np.int64), np.empty(weights.size, np.int64), 0
-    for x in range(weights.shape[0]):
-        for y in range(weights.shape[1]):
-            if covered[x, y] > 0 and label[x, y] < 0:
-                missing[n] = _flood(x, y, n, label, right, above, weights, stack)
-                n += 1
-    labels = np.full(len(spans), -1, np.int64)
-    for k in range(len(spans)):
-        a, b, c, d = spans[k]
-        if a < b and c < d:
-            labels[k] = label[a, c]
-    return labels, missing[:n].copy()
-
-
-@_kernel
-def _by_component(labels: Int, n: int) -> tuple[Int, Int]:
-    """Rows sorted by component, stable, the empty ones left out; (n + 1,) where each component begins."""
-    starts = np.zeros(n + 1, np.int64)
-    for label in labels:
-        if label >= 0:
-            starts[label + 1] += 1
-    starts = np.cumsum(starts)
-    order, at = np.empty(starts[n], np.int64), starts.copy()
-    for k in range(len(labels)):
-        if labels[k] >= 0:
-            order[at[labels[k]]] = k
-            at[labels[k]] += 1
-    return order, starts
-
-
-@_kernel
-def _depth(spans: Index, shape: tuple[int, int], less_x: int, less_y: int) -> Int:
-    """Rectangles over each cell, by differences; 1 less in x (y): over it and its right (upper) neighbour."""
-    depth = np.zeros((shape[0] + 1, shape[1] + 1), np.int64)
-    for k in range(len(spans)):
-        a, b, c, d = spans[k]
-        if a < b - less_x and c < d - less_y:
-            depth[a, c] += 1
-            depth[b - less_x, d - less_y] += 1
-            depth[a, d - less_y] -= 1
-            depth[b - less_x, c] -= 1
-    for x in range(shape[0] + 1):
-        run = 0
-        for y in range(shape[1] + 1):
-            run += depth[x, y]
-            depth[x, y] = run if x == 0 else run + depth[x - 1, y]
-    return depth
-
-
-@_kernel
-def _flood(x: int, y: int, n: int, label: Int, right: Int, above: Int, weights: Int, stack: Int) -> int:
-    """Label the component of cell (x, y); returns its free cells."""
-    label[x, y] = n
-    stack[0] = x, y
-    size, cells = 1, 0
-    while size > 0:
-        size -= 1
-        x, y = stack[size]
-        cells += weights[x, y]
-        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-            u, v = x + dx, y + dy
-            if u < 0 or v < 0 or u >= label.shape[0] or v >= label.shape[1] or label[u, v] >= 0:
-                continue
-            link = right[min(x, u), y] if dx != 0 else above[x, min(y, v)]
-            if link > 0:
-                label[u, v] = n
-                stack[size] = u, v
-                size += 1
-    return cells
 
 
 @_kernel
@@ -141,8 +69,9 @@ def _cover_component(
 ) -> int:
     """Cover one component; writes the choices to ``chosen`` and ``gained`` and returns their number."""
     gain = np.array([_remaining(sums, spans[k]) for k in range(len(spans))])
-    first_child, sibling, heap, size = _hide(codes, steps, total, gain)
-    n = 0
+    tree, heap, size = _hide(codes, steps, (total, gain, total))
+    least = _least_weight(tree, heap[:size], total)
+    keys, n = (total.copy(), gain.copy(), total.copy()), 0
     while missing > 0:
         k = heap[0]
         now = _remaining(sums, spans[k])
@@ -153,21 +82,68 @@ def _cover_component(
             _take_out(sums, spans[k])
             now = 0
         gain[k] = now
+        keys[0][k], keys[1][k], keys[2][k] = total[k], now, total[k]
         if now == 0:
             size -= 1
             heap[0] = heap[size]
-        _sift_down(heap, size, 0, total, gain)
-        child = first_child[k] if now > 0 else -1
-        while child >= 0:
-            _sift_up(heap, size, child, total, gain)
-            size += 1
-            child = sibling[child]
-        first_child[k] = -1
+        _sift_down(heap, size, 0, keys)
+        if now > 0:
+            size = _release(k, tree, spans, sums, total, gain, least, heap, size, keys)
     return n
 
 
 @_kernel
-def _hide(codes: Int, steps: Int, total: Int, gain: Int) -> tuple[Int, Int, Int, int]:
+def _release(
+    k: int,
+    tree: Tree,
+    spans: Index,
+    sums: Sums,
+    total: Int,
+    gain: Int,
+    least: Int,
+    heap: Int,
+    size: int,
+    keys: Keys,
+) -> int:
+    """Put the rectangles that waited behind ``k`` into the heap; returns its size.
+
+    A child stands for all that wait behind it. Their ratios were no smaller than its own, A / gain; nor are
+    they smaller than the least weight among them over the cells that are left in the child. The better of
+    the two bounds is the key; as a mere bound the second comes before all ties.
+    """
+    child, tree[0][k] = tree[0][k], -1
+    while child >= 0:
+        left = _remaining(sums, spans[child])
+        if left < gain[child] and least[child] * gain[child] > total[child] * left:
+            keys[0][child], keys[1][child], keys[2][child] = least[child], left, BEFORE_TIES
+        if left > 0:
+            _sift_up(heap, size, child, keys)
+            size += 1
+        child = tree[1][child]
+    return size
+
+
+@_kernel
+def _least_weight(tree: Tree, roots: Int, total: Int) -> Int:
+    """(K,) least A among each rectangle and all that wait behind it."""
+    least, order, size = total.copy(), np.empty(len(total), np.int64), len(roots)
+    order[:size] = roots
+    parent = np.full(len(total), -1, np.int64)
+    for at in range(len(total)):
+        child = tree[0][order[at]]
+        while child >= 0:
+            parent[child] = order[at]
+            order[size] = child
+            size += 1
+            child = tree[1][child]
+    for at in range(len(total) - 1, len(roots) - 1, -1):
+        k = order[at]
+        least[parent[k]] = min(least[parent[k]], least[k])
+    return least
+
+
+@_kernel
+def _hide(codes: Int, steps: Int, keys: Keys) -> tuple[Tree, Int, int]:
     """Hide every rectangle behind a neighbour that the greedy choice must prefer; heap of those left.
 
     A neighbour differs by one plane on one side. R hides behind S where S precedes R at the start and holds
@@ -184,23 +160,23 @@ def _hide(codes: Int, steps: Int, total: Int, gain: Int) -> tuple[Int, Int, Int,
                 p += 1
             if p == len(codes):
                 break
-            if codes[p] != larger or gain[p] < gain[k] or total[p] < total[k]:
+            if codes[p] != larger or keys[1][p] < keys[1][k] or keys[0][p] < keys[0][k]:
                 continue
-            if _precedes(p, k, total, gain):
-                if parent[k] < 0 or _precedes(p, parent[k], total, gain):
+            if _precedes(p, k, keys):
+                if parent[k] < 0 or _precedes(p, parent[k], keys):
                     parent[k] = p
-            elif gain[p] == gain[k] and (parent[p] < 0 or _precedes(k, parent[p], total, gain)):
+            elif keys[1][p] == keys[1][k] and (parent[p] < 0 or _precedes(k, parent[p], keys)):
                 parent[p] = k
     first_child, sibling = np.full(len(codes), -1, np.int64), np.full(len(codes), -1, np.int64)
     heap, size = np.empty(len(codes), np.int64), 0
     for k in range(len(codes)):
         if parent[k] < 0:
-            _sift_up(heap, size, k, total, gain)
+            _sift_up(heap, size, k, keys)
             size += 1
         else:
             sibling[k] = first_child[parent[k]]
             first_child[parent[k]] = k
-    return first_child, sibling, heap, size
+    return (first_child, sibling), heap, size
 
 
 @_kernel
@@ -248,42 +224,43 @@ def _clear(sums: Int, i0: int, i1: int, j0: int, j1: int) -> None:
 def _by_key(chosen: Int, gained: Int, total: Int) -> tuple[Int, Int]:
     """The choices of all components in the order of the greedy choice over the whole."""
     gain = np.zeros(len(total), np.int64)
+    keys = (total, gain, total)
     heap, size = np.empty(len(chosen), np.int64), 0
     for n in range(len(chosen)):
         gain[chosen[n]] = gained[n]
-        _sift_up(heap, size, chosen[n], total, gain)
+        _sift_up(heap, size, chosen[n], keys)
         size += 1
     for n in range(len(chosen)):
         chosen[n] = heap[0]
         gained[n] = gain[chosen[n]]
         size -= 1
         heap[0] = heap[size]
-        _sift_down(heap, size, 0, total, gain)
+        _sift_down(heap, size, 0, keys)
     return chosen, gained
 
 
 @_kernel
-def _precedes(k: int, m: int, total: Int, gain: Int) -> bool:
+def _precedes(k: int, m: int, keys: Keys) -> bool:
     """True where the greedy choice prefers rectangle k to m: smaller ratio, larger A, smaller index."""
-    left, right = total[k] * gain[m], total[m] * gain[k]
+    left, right = keys[0][k] * keys[1][m], keys[0][m] * keys[1][k]
     if left != right:
         return bool(left < right)
-    if total[k] != total[m]:
-        return bool(total[k] > total[m])
+    if keys[2][k] != keys[2][m]:
+        return bool(keys[2][k] > keys[2][m])
     return k < m
 
 
 @_kernel
-def _sift_down(heap: Int, size: int, at: int, total: Int, gain: Int) -> None:
+def _sift_down(heap: Int, size: int, at: int, keys: Keys) -> None:
     """Restore the heap below position ``at``."""
     moved = heap[at]
     while True:
         child = 2 * at + 1
         if child >= size:
             break
-        if child + 1 < size and _precedes(heap[child + 1], heap[child], total, gain):
+        if child + 1 < size and _precedes(heap[child + 1], heap[child], keys):
             child += 1
-        if not _precedes(heap[child], moved, total, gain):
+        if not _precedes(heap[child], moved, keys):
             break
         heap[at] = heap[child]
         at = child
@@ -291,9 +268,9 @@ def _sift_down(heap: Int, size: int, at: int, total: Int, gain: Int) -> None:
 
 
 @_kernel
-def _sift_up(heap: Int, at: int, k: int, total: Int, gain: Int) -> None:
+def _sift_up(heap: Int, at: int, k: int, keys: Keys) -> None:
     """Add ``k`` to a heap of ``at`` rectangles."""
-    while at > 0 and _precedes(k, heap[(at - 1) // 2], total, gain):
+    while at > 0 and _precedes(k, heap[(at - 1) // 2], keys):
         heap[at] = heap[(at - 1) // 2]
         at = (at - 1) // 2
     heap[at] = k
