@@ -32,7 +32,7 @@ def stages() -> Outcome:
     figures = {
         "times the read": total / reading,
         "total s": total,
-        "read s": reading,
+        "Open3D read s": reading,
         "points": float(plan.point_count),
         "regions": float(len(plan.regions)),
         "doors": float(len(plan.doors)),

@@ -7,11 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floorplan_core.config import CoverConfig
+from floorplan_core.config import CandidatesConfig, CoverConfig
+from floorplan_core.simulation.layout import layout_only
+from floorplan_core.simulation.spec import BuildingSpec
 from floorplan_core.stages.candidates import enumerate_candidates
 from floorplan_core.stages.exact_cover import exact_cover
 from floorplan_core.stages.set_cover import greedy_cover
-from tests.reference.cover import optimal_weight, plain_greedy, valid_rectangles
+from tests.reference.cover import array_greedy, optimal_weight, plain_greedy, valid_rectangles
 from tests.reference.layouts import RandomLayout, random_layout
 
 SETTINGS = CoverConfig()
@@ -56,6 +58,30 @@ def test_any_layout(seed):
 def test_many_planes_few_cells(seed):
     """Many planes between two cells: nearly every ratio is tied."""
     assert_like_the_paper(random_layout(seed, cells=8, most_planes=9))
+
+
+@pytest.mark.parametrize("style", ["straight", "l", "ring", "grid", "flat"])
+@pytest.mark.parametrize(("rooms", "extra"), [(12, 0), (30, 0), (12, 25)])
+def test_whole_buildings(style, rooms, extra):
+    """Thousands of candidates: long corridors, furniture, rooms not seen, planes that belong to no wall."""
+    rng = np.random.default_rng(rooms + extra)
+    layout = layout_only(BuildingSpec(style=style, rooms=rooms), rng, seen=0.8)
+    x0, y0, x1, y1 = layout.grid.extent
+    planes = [
+        np.sort(np.concatenate([p, rng.uniform(low, high, extra)]))
+        for p, low, high in (
+            (layout.x_plus, x0, x1),
+            (layout.x_minus, x0, x1),
+            (layout.y_plus, y0, y1),
+            (layout.y_minus, y0, y1),
+        )
+    ]
+    found = enumerate_candidates(*planes, layout.blockers, layout.grid, CandidatesConfig())
+    cover = greedy_cover(found, layout.grid, SETTINGS)
+    assert len(found) > 40
+    assert list(zip(cover.chosen.tolist(), cover.gained.tolist(), strict=True)) == array_greedy(
+        found, layout.grid
+    )
 
 
 def test_reference_agrees_on_everything_free():
