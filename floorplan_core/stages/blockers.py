@@ -16,18 +16,23 @@ _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it 
 _TOUCH = 0.3  # m beyond the end of the other wall
 
 
+def crossing_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
+    """(K, 3) offset, start and end of every wall run of the planes across ``axis``."""
+    runs = [(p.offset, s, e) for p in planes if p.facing.axis == axis for s, e in p.walls]
+    return np.array(runs, dtype=np.float64).reshape(-1, 3)
+
+
+def crossing_offsets(plane: LayoutPlane, others: Float) -> Float:
+    """(M,) where along ``plane`` the wall runs ``others`` (K, 3), of the other axis, cross or nearly touch it."""
+    return others[(others[:, 1] - _TOUCH <= plane.offset) & (others[:, 2] + _TOUCH >= plane.offset), 0]
+
+
 def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
     """Extend each wall run to the crossing wall near its end, where nothing was seen to pass between."""
-    crossing = {
-        a: np.array([(p.offset, s, e) for p in planes if p.facing.axis == a for s, e in p.walls]).reshape(
-            -1, 3
-        )
-        for a in (0, 1)
-    }
+    crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
     out = []
     for plane in planes:
-        others = crossing[1 - plane.facing.axis]
-        meets = others[(others[:, 1] - _TOUCH <= plane.offset) & (others[:, 2] + _TOUCH >= plane.offset), 0]
+        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
         runs = [(_reach(plane, s, -1, meets), _reach(plane, e, 1, meets)) for s, e in plane.walls]
         out.append(replace(plane, walls=np.array(runs, dtype=np.float64).reshape(-1, 2)))
     return tuple(out)

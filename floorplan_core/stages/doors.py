@@ -18,11 +18,20 @@ from numpy.typing import NDArray
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, LayoutPlane, WallProfile
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
+from floorplan_core.stages.door_edges import refine_edges
 
 Float = NDArray[np.float64]
 
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
-_WEIGHTS = {"passage": 0.3, "path": 0.35, "lintel": 0.2, "wall on both sides": 0.15, "both faces": 0.15}
+_WEIGHTS = {
+    "passage": 0.3,
+    "path": 0.35,
+    "lintel": 0.2,
+    "wall on both sides": 0.15,
+    "both faces": 0.15,
+    "corner": 0.1,
+}
 
 
 @dataclass(frozen=True)
@@ -38,11 +47,13 @@ class DoorResponse:
 def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: DoorsConfig) -> tuple[Door, ...]:
     """All doors and openings under a lintel, by axis, offset and start."""
     found: list[Door] = []
+    crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
     for plane in planes:
         assert plane.profile is not None
-        for start, end, response in apertures(plane.profile, plane.walls, config):
+        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
+        for start, end, response in apertures(plane.profile, plane.walls, meets, config):
             found.append(_weigh(plane, start, end, response, evidence, config))
-    merged = _merge_faces(found, planes, config)
+    merged = [_kind(d, config) for d in refine_edges(_merge_faces(found, planes, config), planes, evidence)]
     kept = sorted(
         (d for d in merged if d.confidence >= config.min_confidence),
         key=lambda d: (d.axis, d.offset, d.start),
@@ -75,8 +86,13 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
     return DoorResponse(histogram, gradient, best, width)
 
 
-def apertures(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[tuple[float, float, float]]:
-    """(start, end, response) of the openings in one plane: peaks of the filter, and gaps under lintels."""
+def apertures(
+    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig
+) -> list[tuple[float, float, float]]:
+    """(start, end, response) of the openings in one plane: peaks of the filter, gaps under lintels and at corners.
+
+    :param walls: (K, 2) the plane's wall runs; ``meets``: (M,) where walls cross the plane. Metres along it.
+    """
     signal = door_response(profile, config)
     out: list[tuple[float, float, float]] = []
     taken = np.zeros(len(signal.response), dtype=bool)
@@ -85,10 +101,43 @@ def apertures(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[t
             break
         end = k + round(signal.width[k] / profile.step)
         if not taken[k:end].any():
-            taken[max(0, k - 1) : end + 1] = True
-            out.append((*_edges(profile, int(k), int(end)), float(signal.response[k])))
-    out += [gap for gap in _lintel_gaps(profile, walls, config) if not _overlaps(gap, out)]
+            first, last = _widen(profile, int(k), int(end), config)
+            taken[max(0, first - 1) : last + 1] = True
+            out.append((*_edges(profile, first, last), float(signal.response[k])))
+    for gap in (*_lintel_gaps(profile, walls, config), *_corner_gaps(profile, walls, meets, config)):
+        if not _overlaps(gap, out):
+            out.append(gap)
     return out
+
+
+def _corner_gaps(
+    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig
+) -> list[tuple[float, float, float]]:
+    """Openings between the end of a wall run and a crossing wall: only one of their sides is in the plane."""
+    out = []
+    for start, end in walls:
+        for edge, sign in ((start, -1), (end, 1)):
+            ahead = (meets - edge) * sign
+            ahead = ahead[ahead > 0.3]
+            if len(ahead) == 0 or not config.min_width <= ahead.min() <= config.max_width:
+                continue
+            low, high = sorted((float(edge), float(edge + sign * ahead.min())))
+            a, b = (round((v - profile.start) / profile.step) for v in (low, high))
+            if float((profile.through[a + 1 : b - 1] > 0.3).mean()) > 0.5:
+                out.append((low, high, 0.5))
+    return out
+
+
+def _widen(profile: WallProfile, first: int, last: int, config: DoorsConfig) -> tuple[int, int]:
+    """The whole opening around an aperture: double doors are wider than the filter."""
+    most = round((config.max_opening - (last - first) * profile.step) / profile.step)
+    empty = (profile.low < 0.12) & (profile.through > 0.3)
+    a, b = first, last
+    while a > max(0, first - most) and empty[a - 1]:
+        a -= 1
+    while b < min(len(empty), last + most) and empty[b]:
+        b += 1
+    return (a, b) if (b - a) * profile.step <= config.max_opening else (first, last)
 
 
 def _edges(profile: WallProfile, first: int, last: int) -> tuple[float, float]:
@@ -124,6 +173,11 @@ def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> lis
     return out
 
 
+def _kind(door: Door, config: DoorsConfig) -> Door:
+    """A door, or an opening where it is wider."""
+    return replace(door, kind="opening" if door.width > config.max_width else "door")
+
+
 def _overlaps(gap: tuple[float, float, float], others: list[tuple[float, float, float]]) -> bool:
     return any(min(gap[1], o[1]) - max(gap[0], o[0]) > 0.3 * (o[1] - o[0]) for o in others)
 
@@ -147,10 +201,11 @@ def _weigh(
         words.append("lintel")
     if min((left > 0.2).sum(), (right > 0.2).sum()) * profile.step >= 0.25:
         words.append("wall on both sides")
-    wide = end - start > config.max_width
+    elif max((left > 0.2).sum(), (right > 0.2).sum()) * profile.step >= 0.25:
+        words.append("corner")
     return Door(
         id="", planes=(plane.id,), axis=plane.facing.axis, offset=plane.offset, start=start, end=end,
-        kind="opening" if wide else "door", evidence=tuple(words),
+        evidence=tuple(words),
         confidence=_confidence(words, response), height=None,
     )  # fmt: skip
 

@@ -247,13 +247,13 @@ def _acceptable(region: Region, config: RegionsConfig) -> bool:
 def connect_doors(
     regions: Sequence[Region], doors: Sequence[Door]
 ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
-    """Which one or two regions each door joins: those just beyond its two faces. Doors that join none are dropped."""
+    """Which one or two regions each door joins: those just beyond its two faces. Others are dropped."""
     tree = shapely.STRtree([r.polygon for r in regions])
     linked = []
     for door in doors:
         sides = [_behind(door, sign, regions, tree) for sign in (-1, 1)]
         names = tuple(dict.fromkeys(s for s in sides if s))
-        if names:
+        if names and (sides[0] != sides[1]):  # an opening inside one region separates nothing
             linked.append(replace(door, connects=names))
     mine = {r.id: tuple(d.id for d in linked if r.id in d.connects) for r in regions}
     return tuple(replace(r, doors=mine[r.id]) for r in regions), tuple(linked)
