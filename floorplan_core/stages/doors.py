@@ -10,6 +10,7 @@ Cost: linear in the length of the planes times the number of widths.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,7 @@ from floorplan_core.stages.door_edges import refine_edges
 Float = NDArray[np.float64]
 
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
+_UNSEEN = 0.3  # most that an opening can earn through which nothing was seen to pass
 _WEIGHTS = {
     "passage": 0.3,
     "path": 0.35,
@@ -210,11 +212,12 @@ def _weigh(
     )  # fmt: skip
 
 
-def _confidence(words: list[str] | tuple[str, ...], response: float) -> float:
-    """Sum of the evidence; an aperture through which nothing was seen to pass is a gap in the data."""
+def _confidence(words: Sequence[str], response: float) -> float:
+    """Sum of the evidence; an aperture through which nothing was seen to pass is a gap in the data or a shut door."""
+    total = 0.1 * min(response, 1.0) + sum(_WEIGHTS.get(w, 0.0) for w in words)
     if "passage" not in words and "path" not in words:
-        return 0.2
-    return round(min(1.0, 0.1 * min(response, 1.0) + sum(_WEIGHTS[w] for w in words)), 3)
+        total = min(total, _UNSEEN)
+    return round(min(1.0, total), 3)
 
 
 def _path_crosses(plane: LayoutPlane, start: float, end: float, evidence: Evidence) -> bool:
@@ -251,12 +254,12 @@ def _same_opening(a: Door, b: Door, config: DoorsConfig) -> bool:
 
 
 def _merged(sure: Door, other: Door, both_faces: bool) -> Door:
-    words = dict.fromkeys([*sure.evidence, *other.evidence, *(["both faces"] if both_faces else [])])
-    confidence = min(1.0, sure.confidence + (_WEIGHTS["both faces"] if both_faces else 0.0))
+    words = tuple(dict.fromkeys([*sure.evidence, *other.evidence, *(["both faces"] if both_faces else [])]))
+    confidence = _confidence(words, 1.0)
     if not both_faces:
-        return replace(sure, planes=(*sure.planes, *other.planes), evidence=tuple(words))
+        return replace(sure, planes=(*sure.planes, *other.planes), evidence=words, confidence=confidence)
     return replace(
         sure, planes=(*sure.planes, *other.planes), offset=(sure.offset + other.offset) / 2,
-        thickness=max(sure.thickness, abs(sure.offset - other.offset)), confidence=round(confidence, 3),
+        thickness=max(sure.thickness, abs(sure.offset - other.offset)), confidence=confidence,
         start=(sure.start + other.start) / 2, end=(sure.end + other.end) / 2, evidence=tuple(words),
     )  # fmt: skip
