@@ -19,8 +19,11 @@ def corners(ring: Float) -> Float:
     points = ring[:-1] if np.allclose(ring[0], ring[-1]) else ring
     while True:
         before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
-        straight = (np.abs(points - before) < _SAME) & (np.abs(after - points) < _SAME)
-        keep = ~straight.any(axis=1)
+        still = np.abs(points - before) < _SAME
+        straight = still & (np.abs(after - points) < _SAME)
+        # Repeated points go first: beside its copy a corner would look like a point of a side.
+        repeated = still.all(axis=1)
+        keep = ~repeated if repeated.any() else ~straight.any(axis=1)
         if keep.all() or keep.sum() < 4:
             return points if keep.all() else points[:0]
         points = points[keep]
