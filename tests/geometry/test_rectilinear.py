@@ -1,0 +1,103 @@
+"""Rectilinear polygons: corners, moving sides, opening."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides, open_polygon, polygons_of
+
+L_SHAPE = [(0, 0), (4, 0), (4, 2), (2, 2), (2, 5), (0, 5)]
+
+
+def _ring(points) -> np.ndarray:
+    return np.array([*points, points[0]], dtype=float)
+
+
+def _same(a, b) -> bool:
+    return bool(shapely.equals(a, b)) and a.is_valid
+
+
+def test_corners_drop_what_lies_on_a_side():
+    ring = _ring([(0, 0), (1, 0), (3, 0), (4, 0), (4, 2), (3, 2), (2, 2), (2, 5), (0, 5), (0, 3)])
+    assert shapely.equals(shapely.Polygon(corners(ring)), shapely.Polygon(L_SHAPE))
+    assert len(corners(ring)) == 6
+
+
+def test_corners_of_a_ring_that_begins_inside_a_side():
+    ring = _ring([(2, 0), (4, 0), (4, 2), (2, 2), (2, 5), (0, 5), (0, 0)])
+    assert len(corners(ring)) == 6
+
+
+def test_repeated_points_and_spikes_are_no_corners():
+    assert len(corners(_ring([(0, 0), (4, 0), (4, 0), (4, 3), (0, 3), (0, 3)]))) == 4
+    assert len(corners(_ring([(0, 0), (4, 0), (2, 0)]))) == 0  # nothing is left of a line
+
+
+def test_sides_move_across_their_own_direction():
+    def target(a, b):
+        across = 0 if abs(a[0] - b[0]) < 1e-6 else 1
+        return a[across] + 0.1  # every side by 10 cm towards plus
+
+    moved = shapely.Polygon(move_sides(_ring(L_SHAPE), target))
+    assert shapely.equals(moved, shapely.Polygon(np.array(L_SHAPE) + 0.1))
+
+
+@given(shift=st.lists(st.floats(-0.3, 0.3), min_size=6, max_size=6))
+def test_moved_rings_stay_rectilinear_and_each_side_lies_where_it_was_sent(shift):
+    ring = _ring(L_SHAPE)
+    points = corners(ring)
+    wanted = []
+    for k in range(6):
+        a, b = points[k], points[(k + 1) % 6]
+        across = 0 if a[0] == b[0] else 1
+        wanted.append(a[across] + shift[k])
+    answers = iter(wanted)
+    moved = move_sides(ring, lambda a, b: next(answers))
+    for k in range(6):
+        across = 0 if points[k][0] == points[(k + 1) % 6][0] else 1
+        assert moved[k][across] == moved[(k + 1) % 6][across] == wanted[k]
+
+
+def test_rings_are_moved_with_the_inside_at_their_left():
+    room = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 3, 3))
+    turns = []
+
+    def move(ring):
+        turns.append(shapely.LinearRing(ring).is_ccw)
+        return move_sides(ring, lambda a, b: a[0] if abs(a[0] - b[0]) < 1e-6 else a[1])
+
+    assert _same(map_polygon(room, move), room)
+    assert turns == [True, False]
+
+
+def test_a_hole_that_collapses_is_dropped():
+    room = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 3, 3))
+
+    def move(ring):
+        return corners(ring) if len(ring) and np.ptp(ring[:, 0]) > 2 else corners(ring)[:0]
+
+    assert _same(map_polygon(room, move), shapely.box(0, 0, 6, 6))
+
+
+def test_opening_removes_what_is_narrower_and_keeps_the_rest():
+    room = shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 1, 7, 1.2)])
+    assert _same(shapely.normalize(open_polygon(room, 0.3)), shapely.box(0, 0, 4, 4))
+    assert open_polygon(room, 0.15).area == pytest.approx(room.area)
+    assert open_polygon(room, 0) is room
+
+
+def test_polygons_come_largest_first_without_lines_or_points():
+    mixed = shapely.GeometryCollection(
+        [
+            shapely.box(0, 0, 1, 1),
+            shapely.LineString([(0, 0), (1, 1)]),
+            shapely.box(5, 5, 8, 8),
+            shapely.Point(3, 3),
+        ]
+    )
+    assert [p.area for p in polygons_of(mixed)] == [9.0, 1.0]
+    assert polygons_of(shapely.Polygon()) == []
