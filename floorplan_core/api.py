@@ -21,13 +21,32 @@ from floorplan_core.model import (
 )
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Exporter, Reader, ReadOptions, RegionClassifier, hookimpl
+from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
+from floorplan_core.readers.foreign import damaged, import_library, moved, spread_sample
+from floorplan_core.readers.ply_header import parse_ply_header
+from floorplan_core.readers.records import as_scan_id, join_chunks
+from floorplan_core.readers.source import (
+    CHUNK_POINTS,
+    SAMPLE_POINTS,
+    EmptyInput,
+    PointSource,
+    RawChunk,
+    ScanIds,
+)
+from floorplan_core.readers.trajectory import read_trajectory, rotation_from_quaternion
 
 __all__ = [
+    "CHUNK_POINTS",
     "FREE",
     "OCCUPIED",
+    "SAMPLE_POINTS",
+    "SCAN_ID_NAMES",
+    "STAMP_NAMES",
     "UNOBSERVED",
     "Config",
     "Door",
+    "EmptyInput",
     "Exporter",
     "Facing",
     "FloorPlan",
@@ -42,13 +61,28 @@ __all__ = [
     "OccupancyGrid",
     "OutputError",
     "PointChunk",
+    "PointSource",
+    "RawChunk",
     "ReadOptions",
     "Reader",
     "Reconstruction",
     "Region",
     "RegionClassifier",
     "RegionSide",
+    "ScanIds",
     "Trajectory",
     "UsageError",
+    "as_scan_id",
+    "assemble",
+    "damaged",
+    "find_name",
+    "find_xyz",
     "hookimpl",
+    "import_library",
+    "join_chunks",
+    "moved",
+    "parse_ply_header",
+    "read_trajectory",
+    "rotation_from_quaternion",
+    "spread_sample",
 ]

@@ -145,7 +145,7 @@ class DoorsConfig(Section):
     max_beamless: float = setting(
         2.0,
         "m",
-        "Across a wider opening a shallow lintel is a beam below the ceiling, and separates nothing.",
+        "A wider lintel between two walls that go on beyond it is a beam, and separates nothing.",
         gt=0.5,
         le=10,
     )

@@ -33,7 +33,7 @@ from floorplan_core.model import (
     Trajectory,
 )
 from floorplan_core.observer import Observer
-from floorplan_core.stages.blockers import blockers, close_corners
+from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
 from floorplan_core.stages.candidates import enumerate_candidates
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
@@ -165,7 +165,7 @@ class FloorPlanner:
         segments, planes = stage(
             "planes", lambda: find_planes(segments, rows, evidence, config.planes, config.doors)
         )
-        planes = stage("planes", lambda: close_corners(planes))
+        planes = stage("planes", lambda: close_corners(remove_beams(planes, config.doors.max_beamless)))
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
         grid = stage("occupancy", lambda: slice_map(evidence, planes, config.occupancy))
         walls = blockers(planes, doors)

@@ -40,6 +40,9 @@ class LocalFrame:
     up: str = "z"  # the file's up axis: "x", "y", "z", "-x", "-y", "-z"
     rotation: Float = field(default_factory=lambda: np.eye(3))  # (3, 3) file axes to z-up axes
     shift: Float = field(default_factory=lambda: np.zeros(3))  # (3,) metres, world = local + shift
+    crs: str = (
+        ""  # coordinate reference system of the file (WKT or "EPSG:n") as it states it; "" where it does not
+    )
 
     def to_local(self, points: Float) -> Float:
         """(N, 3) file coordinates to (N, 3) local metres."""
@@ -53,6 +56,8 @@ class PointChunk:
     points: NDArray[np.float32] | Float  # (N, 3) metres, local frame
     scan_id: NDArray[np.int32] | None = None  # (N,) row of the trajectory that saw the point, or None
     stamps: Float | None = None  # (N,) seconds, or None
+    free: NDArray[np.float32] | Float | None = None  # (M, 3) centres of voxels known to be free, local frame
+    free_size: float = 0.0  # metres, side of those voxels; 0 where there are none
 
 
 @dataclass(frozen=True)

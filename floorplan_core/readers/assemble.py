@@ -13,6 +13,7 @@ from floorplan_core.model import LocalFrame, PointChunk, Reconstruction, Traject
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.axes import AxisGuess, guess_axes
+from floorplan_core.readers.join_time import join_by_time
 from floorplan_core.readers.local import (
     LIMIT,
     choose_shift,
@@ -33,13 +34,15 @@ Float = NDArray[np.float64]
 def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> Reconstruction:
     """Guess unit, up axis and shift on a sample, find and check the trajectory, wire up the chunks."""
     sample = source.sample()
-    points, scan_id = finite_sample(sample, source.path.name)
     path, notes = _find_path(source, options, observer)
+    if path is not None and (joined := join_by_time(source, sample, path, observer)) is not source:
+        source, sample = joined, joined.sample()
+    points, scan_id = finite_sample(sample, source.path.name)
     if path is not None:
         _check_rows(source, scan_id, len(path))
     near = path if path is not None and belongs(points, path) else None
-    guess = guess_axes(points, near, options.input.unit, options.input.up)
-    frame = _local_frame(points, guess)
+    guess = _guess(source, points, near, options)
+    frame = replace(_local_frame(points, guess), crs=source.crs)
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
     trajectory = None
@@ -56,6 +59,20 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
         assumptions=(*source.notes, *notes, *guess.sentences),
         format=source.format,
     )
+
+
+def _guess(source: PointSource, points: Float, path: Trajectory | None, options: ReadOptions) -> AxisGuess:
+    """What the user asked for, else what the format fixes, else what the points look like."""
+    asked = options.input
+    unit = source.unit if asked.unit == "auto" else asked.unit
+    up = source.up if asked.up == "auto" else asked.up
+    guess = guess_axes(points, path, unit, up)
+    fixed = (asked.up == "auto" and up != "auto", asked.unit == "auto" and unit != "auto")
+    words = f"as {source.format} files have it"
+    sentences = (
+        s.replace("as asked", words) if f else s for s, f in zip(guess.sentences, fixed, strict=True)
+    )
+    return replace(guess, sentences=tuple(sentences))
 
 
 def _local_frame(points: Float, guess: AxisGuess) -> LocalFrame:
@@ -145,7 +162,7 @@ def chunk_factory(
             total += len(raw.points)
             left_out += lost
             unreadable += raw.dropped
-            if len(chunk.points):
+            if len(chunk.points) or chunk.free is not None:
                 yield chunk
         if not reported:
             reported.append(True)
@@ -156,13 +173,17 @@ def chunk_factory(
 
 def _local_chunk(raw: RawChunk, frame: LocalFrame) -> tuple[PointChunk, int]:
     points = local_points(raw.points, frame, raw.T_file_sensor)
+    free = None if raw.free is None else local_points(raw.free, frame, raw.T_file_sensor)
+    size = raw.free_size * frame.scale
     keep = keep_finite(points)
     if keep is None:
-        return PointChunk(points, raw.scan_id, raw.stamps), 0
+        return PointChunk(points, raw.scan_id, raw.stamps, free, size), 0
     chunk = PointChunk(
         points[keep],
         None if raw.scan_id is None else raw.scan_id[keep],
         None if raw.stamps is None else raw.stamps[keep],
+        free,
+        size,
     )
     return chunk, int(len(points) - len(chunk.points))
 

@@ -38,6 +38,8 @@ class RawChunk:
     stamps: Float | None = None  # (N,) seconds
     T_file_sensor: Float | None = None  # (4, 4) where the points are in a sensor's frame: its pose
     dropped: int = 0  # records that hold no point (words where numbers should be)
+    free: NDArray[Any] | None = None  # (M, 3) centres of voxels that the file says are free, file coordinates
+    free_size: float = 0.0  # side of those voxels, file unit
 
 
 @dataclass(frozen=True)
@@ -62,3 +64,6 @@ class PointSource:
     scan_ids: ScanIds | None = None  # None where not known without a costly pass
     poses: Trajectory | None = None  # sensor poses that the format itself carries, file coordinates
     notes: tuple[str, ...] = ()  # sentences for Reconstruction.assumptions
+    unit: str = "auto"  # "m" where the format fixes it; what the user asks for goes before
+    up: str = "auto"  # "z" where the format fixes it
+    crs: str = ""  # coordinate reference system that the file states

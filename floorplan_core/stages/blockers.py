@@ -13,6 +13,7 @@ from floorplan_core.model import Door, LayoutPlane
 Float = NDArray[np.float64]
 
 _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it must meet
+_ON = 0.5  # m that a crossing wall must go on beyond a beam on both sides
 _TOUCH = 0.3  # m beyond the end of the other wall
 
 
@@ -36,6 +37,45 @@ def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
         runs = [(_reach(plane, s, -1, meets), _reach(plane, e, 1, meets)) for s, e in plane.walls]
         out.append(replace(plane, walls=np.array(runs, dtype=np.float64).reshape(-1, 2)))
     return tuple(out)
+
+
+def remove_beams(planes: Sequence[LayoutPlane], widest_lintel: float) -> tuple[LayoutPlane, ...]:
+    """Cut from the wall runs what is a beam under the ceiling: it spans from one crossing wall to another.
+
+    A lintel rests on wall that ends beside the opening; a beam rests on walls that go on in front of and behind
+    it. Only gaps wider than ``widest_lintel`` (metres) are judged.
+    """
+    crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
+    out = []
+    for plane in planes:
+        others = crossing[1 - plane.facing.axis]
+        going_on = others[(others[:, 1] < plane.offset - _ON) & (others[:, 2] > plane.offset + _ON), 0]
+        beams = [b for b in _open_spans(plane) if b[1] - b[0] > widest_lintel and _between(b, going_on)]
+        out.append(replace(plane, walls=_without(plane.walls, beams)) if beams else plane)
+    return tuple(out)
+
+
+def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
+    """Stretches of the plane with nothing below 2 m and free space through."""
+    profile = plane.profile
+    if profile is None:
+        return []
+    empty = np.concatenate([[False], (profile.low < 0.12) & (profile.through > 0.3), [False]])
+    edges = np.flatnonzero(np.diff(empty.astype(np.int8))).reshape(-1, 2)
+    return [(profile.start + a * profile.step, profile.start + b * profile.step) for a, b in edges]
+
+
+def _between(span: tuple[float, float], crossing: Float) -> bool:
+    """True where a crossing wall stands at both ends of the span."""
+    return all(len(crossing) and np.abs(crossing - end).min() < _TOUCH for end in span)
+
+
+def _without(runs: Float, spans: list[tuple[float, float]]) -> Float:
+    """The runs (K, 2) less the spans."""
+    pieces = [(float(s), float(e)) for s, e in runs]
+    for low, high in spans:
+        pieces = [p for s, e in pieces for p in ((s, min(e, low)), (max(s, high), e)) if p[1] - p[0] > 0.05]
+    return np.array(pieces, dtype=np.float64).reshape(-1, 2)
 
 
 def _reach(plane: LayoutPlane, end: float, sign: int, meets: Float) -> float:

@@ -21,9 +21,11 @@ from floorplan_core.model import Door, LayoutPlane, WallProfile
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
 from floorplan_core.stages.door_edges import refine_edges
+from floorplan_core.stages.layout_planes import is_solid
 
 Float = NDArray[np.float64]
 
+_CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
 _UNSEEN = 0.3  # most that an opening can earn through which nothing was seen to pass
 _WEIGHTS = {
@@ -125,15 +127,18 @@ def _corner_gaps(
                 continue
             low, high = sorted((float(edge), float(edge + sign * ahead.min())))
             a, b = (round((v - profile.start) / profile.step) for v in (low, high))
-            if float((profile.through[a + 1 : b - 1] > 0.3).mean()) > 0.5:
-                out.append((low, high, 0.5))
+            open_ = np.flatnonzero(profile.through[a:b] > 0.3)
+            if len(open_) * profile.step >= _CORNER_PASSAGE:
+                unseen = len(open_) < 0.5 * (b - a)  # the far jamb is hidden: keep to what was seen to pass
+                ends = profile.start + profile.step * (a + np.array([open_[0], open_[-1] + 1]))
+                out.append((float(ends[0]), float(ends[1]), 0.5) if unseen else (low, high, 0.5))
     return out
 
 
 def _widen(profile: WallProfile, first: int, last: int, config: DoorsConfig) -> tuple[int, int]:
     """The whole opening around an aperture: double doors are wider than the filter."""
     most = round((config.max_opening - (last - first) * profile.step) / profile.step)
-    empty = (profile.low < 0.12) & (profile.through > 0.3)
+    empty = ~is_solid(profile) & (profile.through > 0.3)
     a, b = first, last
     while a > max(0, first - most) and empty[a - 1]:
         a -= 1
@@ -162,7 +167,7 @@ def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> lis
     out = []
     for start, end in walls:
         a, b = (round((v - profile.start) / profile.step) for v in (start, end))
-        empty = profile.low[a:b] < 0.12
+        empty = ~is_solid(profile)[a:b]
         for i, j in np.flatnonzero(
             np.diff(np.concatenate([[False], empty, [False]]).astype(np.int8))
         ).reshape(-1, 2):

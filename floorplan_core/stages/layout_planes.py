@@ -81,7 +81,17 @@ def _plane(
         profile=profile,
         observed=observed,
     )
-    return replace(plane, walls=wall_runs(profile, config, doors))
+    return replace(plane, walls=_own_part(wall_runs(profile, config, doors), observed))
+
+
+def _own_part(runs: Float, observed: Float) -> Float:
+    """The runs from the first to the last place where this very plane was seen; the rest is another's wall."""
+    kept = []
+    for start, end in runs:
+        mine = observed[(observed[:, 1] > start) & (observed[:, 0] < end)]
+        if len(mine):
+            kept.append((max(start, mine[0, 0]), min(end, mine[-1, 1])))
+    return np.array(kept, dtype=np.float64).reshape(-1, 2)
 
 
 def _profile(
@@ -132,8 +142,8 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     A gap is bridged when nothing was seen to pass through it and it is shorter than ``config.bridge``; a gap
     under a lintel is part of the wall (its opening is reported as a door or opening).
     """
-    solid = _close(profile.low >= 0.12, 2)
-    lintel = _lintels(profile, solid, doors)
+    solid = _close(is_solid(profile), 2)
+    lintel = (profile.high > 0) & ~solid
     wall = solid | lintel
     runs = np.flatnonzero(np.diff(np.concatenate([[False], wall, [False]]).astype(np.int8))).reshape(-1, 2)
     joined: list[list[int]] = []
@@ -147,21 +157,9 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     return profile.start + np.array(kept, dtype=np.float64).reshape(-1, 2) * profile.step
 
 
-def _lintels(profile: WallProfile, solid: NDArray[np.bool_], doors: DoorsConfig) -> NDArray[np.bool_]:
-    """Cells under wall that begins above 2 m. Across more than a double door, what is shallow is a beam."""
-    lintel = (profile.high > 0) & ~solid
-    out = lintel.copy()
-    for a, b in np.flatnonzero(np.diff(np.concatenate([[False], lintel, [False]]).astype(np.int8))).reshape(
-        -1, 2
-    ):
-        wide = (b - a) * profile.step > doors.max_beamless
-        if (
-            wide
-            and float(np.median(profile.high[a:b])) < doors.lintel_depth
-            and float(profile.through[a:b].mean()) > 0.3
-        ):
-            out[a:b] = False
-    return out
+def is_solid(profile: WallProfile) -> NDArray[np.bool_]:
+    """Where wall was seen below 2 m: a few returns in a place that is mostly seen through are no wall."""
+    return (profile.low >= 0.12) & ~((profile.through > 0.5) & (profile.low < 0.35))
 
 
 def _close(mask: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
