@@ -25,6 +25,7 @@ Float = NDArray[np.float64]
 
 _LOW_FROM = 0.2  # m, skirting and floor
 _PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
+_HOLE = 0.35  # m, too narrow to pass
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
 
@@ -144,7 +145,7 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     """
     solid = _close(is_solid(profile), 2)
     lintel = (profile.high > 0) & ~solid
-    wall = solid | lintel
+    wall = _close(solid | lintel, round(_HOLE / 2 / profile.step))  # beside the jambs a lintel is seen least
     runs = np.flatnonzero(np.diff(np.concatenate([[False], wall, [False]]).astype(np.int8))).reshape(-1, 2)
     joined: list[list[int]] = []
     for a, b in runs:
