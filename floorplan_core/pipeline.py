@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import Config
-from floorplan_core.errors import NoPlanError
+from floorplan_core.errors import InputError, NoPlanError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
@@ -52,6 +52,10 @@ Float = NDArray[np.float64]
 T = TypeVar("T")
 
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
+LATTICE_SAMPLE = 100_000  # first points of a run, which show whether it is a voxel map; waiting takes 3 MB
+
+Points = NDArray[np.float64] | NDArray[np.float32]
+Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
 
 
 class FloorPlanner:
@@ -68,12 +72,14 @@ class FloorPlanner:
         self._surfels = SurfelMap(self.config.voxels.size / 2)
         self._misses = MissMap(self.config.voxels.size)
         self._path: list[Float] = []
+        self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
         self._names: tuple[Region, ...] = ()
         self._unused = 1  # the lowest number that no region of the run ever had
         self._pool = ThreadPoolExecutor(1)
         self._lattice: float | None = (
             None  # m between the points of a voxel map; 0: no lattice; None: not known yet
         )
+        self._waiting: list[Scan] = []  # what came before that was known
         self.seconds: dict[str, float] = {}
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
@@ -87,22 +93,61 @@ class FloorPlanner:
             self._integrate(pts, np.full(len(pts), -1, dtype=np.int32), np.zeros((0, 3)))
             return
         pose = np.asarray(T_world_sensor, dtype=np.float64)
+        if pose.shape != (4, 4) or not np.isfinite(pose).all():
+            raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
         world = pts @ pose[:3, :3].T + pose[:3, 3]
+        self._path.append(pose[None, :3, 3])
         self._integrate(world, np.zeros(len(pts), dtype=np.int32), pose[None, :3, 3])
 
     def integrate_chunk(self, chunk: PointChunk, trajectory: Trajectory | None) -> None:
-        """Add points that are in the local frame already; ``chunk.scan_id`` are rows of ``trajectory``."""
+        """Add points that are in the local frame already; ``chunk.scan_id`` are rows of ``trajectory``.
+
+        Raises :class:`InputError` where the trajectory has no such row.
+        """
         if chunk.scan_id is None or trajectory is None:
             self._integrate(chunk.points, np.full(len(chunk.points), -1, dtype=np.int32), np.zeros((0, 3)))
         elif len(chunk.scan_id):
             first, last = int(chunk.scan_id.min()), int(chunk.scan_id.max())
-            self._integrate(
-                chunk.points, chunk.scan_id - np.int32(first), trajectory.origins[first : last + 1]
-            )
+            if first < 0 or last >= len(trajectory):
+                raise InputError(
+                    f"Points refer to the scans {first} to {last}, the trajectory has the rows 0 to "
+                    f"{len(trajectory) - 1}; give the trajectory of this survey."
+                )
+            self._follow(trajectory, first, last)
+            origins = trajectory.origins[first : last + 1]
+            self._integrate(chunk.points, chunk.scan_id - np.int32(first), origins)
 
-    def _integrate(
-        self, points: NDArray[np.float64] | NDArray[np.float32], scan: NDArray[np.int32], origins: Float
-    ) -> None:
+    def _follow(self, trajectory: Trajectory, first: int, last: int) -> None:
+        """Widen the part of the trajectory that was used: the path does not depend on the chunks."""
+        if self._rows is not None:
+            first, last = min(first, self._rows[1]), max(last, self._rows[2])
+        self._rows = (trajectory, first, last)
+
+    def _sensor_path(self) -> Float:
+        """(M, 3) sensor positions so far, local frame."""
+        parts = [np.zeros((0, 3)), *self._path]
+        if self._rows is not None:
+            trajectory, first, last = self._rows
+            parts.append(trajectory.origins[first : last + 1])
+        return np.concatenate(parts)
+
+    def _integrate(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
+        if self._lattice is not None:
+            self._add(points, scan, origins)
+            return
+        self._waiting.append((points.copy(), scan, origins))
+        if sum(len(waiting[0]) for waiting in self._waiting) >= LATTICE_SAMPLE:
+            self._begin()
+
+    def _begin(self) -> None:
+        """Decide on the first points of the run, however they were cut, whether it is a voxel map; add them."""
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            self._lattice = lattice_spacing(np.concatenate([w[0] for w in waiting])[:LATTICE_SAMPLE])
+        for points, scan, origins in waiting:
+            self._add(points, scan, origins)
+
+    def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
         began = time.perf_counter()
         limits = (self.config.input.min_range, self.config.input.max_range)
         points, scan = self._densify(points, scan)
@@ -113,16 +158,10 @@ class FloorPlanner:
         carving = self._pool.submit(self._misses.carve, points, scan, origins, limits)
         self._surfels.insert(points, scan, origins, limits)
         carving.result()
-        if len(origins):
-            self._path.append(origins)
         self.seconds["integrate"] = self.seconds.get("integrate", 0.0) + time.perf_counter() - began
 
-    def _densify(
-        self, points: NDArray[np.float64] | NDArray[np.float32], scan: NDArray[np.int32]
-    ) -> tuple[NDArray[np.float64] | NDArray[np.float32], NDArray[np.int32]]:
+    def _densify(self, points: Points, scan: NDArray[np.int32]) -> tuple[Points, NDArray[np.int32]]:
         """The points of a coarse voxel map, subdivided so that its surfaces have no holes."""
-        if self._lattice is None and len(points):
-            self._lattice = lattice_spacing(points)
         if not self._lattice or self._lattice <= self._surfels.size:
             return points, scan
         dense = subdivide(points, self._lattice, self._surfels.size)
@@ -134,6 +173,7 @@ class FloorPlanner:
         :param given: results of the first stages of an earlier run, in their order; they are taken as they are
             (:mod:`floorplan_core.restart`).
         """
+        self._begin()
         if not given and len(self._surfels) < MIN_SURFELS:
             raise NoPlanError(
                 f"Too little to make a plan of: {self._surfels.points} points in {len(self._surfels)} voxels of "
@@ -141,7 +181,7 @@ class FloorPlanner:
             )
         config, warnings = self.config, list[str]()
         seconds = {"integrate": self.seconds.get("integrate", 0.0)}
-        path = np.concatenate(self._path) if self._path else np.zeros((0, 3))
+        path = self._sensor_path()
         earlier = iter(given)
 
         def stage(name: str, work: Callable[[], T]) -> T:
@@ -167,7 +207,7 @@ class FloorPlanner:
         )
         planes = stage("planes", lambda: close_corners(remove_beams(planes, config.doors.max_beamless)))
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
-        grid = stage("occupancy", lambda: slice_map(evidence, planes, config.occupancy))
+        grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
         walls = blockers(planes, doors)
         paired = [p for p in planes if p.support >= config.planes.min_support]
         candidates = stage("candidates", lambda: _candidates(paired, walls, grid, config, self.observer))
@@ -185,13 +225,14 @@ class FloorPlanner:
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config))
         if self._names:
             regions, doors = _rename(self._names, regions, doors, self._unused)
-        self._names, self._unused = regions, max(self._unused, next_number(regions))
         left = int(cover.uncovered.sum()) * grid.cell**2
         if left > 1.0:
             warnings.append(
                 f"{left:.1f} m2 of free space are in no region: no rectangle of walls encloses them."
             )
         points = stage("regions", lambda: thin_wall_points(evidence, segments))
+        self.observer.check_cancelled()
+        self._names, self._unused = regions, max(self._unused, next_number(regions))
         for text in warnings:
             self.observer.warning(text)
         return FloorPlan(

@@ -14,24 +14,28 @@ from numpy.typing import NDArray
 from floorplan_core.config import OccupancyConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
-from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, LayoutPlane, OccupancyGrid
+from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _HEIGHTS = (0.5, 1.9)  # m, between which the best slice is looked for
+_TYPICAL = 2.0  # times the indoor share: what the surely inside must show for ceiling (floor) to decide
+_BEYOND = 0.6  # m behind a door, where the space that it opens is looked for
 _BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
 
 
-def slice_map(evidence: Evidence, planes: tuple[LayoutPlane, ...], config: OccupancyConfig) -> OccupancyGrid:
+def slice_map(
+    evidence: Evidence, planes: tuple[LayoutPlane, ...], doors: tuple[Door, ...], config: OccupancyConfig
+) -> OccupancyGrid:
     """Sample the voxel map and keep the free cells that the cover has to explain."""
     height = _best_height(evidence) if config.slice_height is None else config.slice_height
     level = min(int(height / LEVEL), 60)
     free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
     occupied = (evidence.occupied & height_mask(level * LEVEL, (level + 1) * LEVEL)) != 0
     states = np.where(occupied, OCCUPIED, np.where(free, FREE, UNOBSERVED)).astype(np.uint8)
-    universe = _indoors(states == FREE, evidence, planes, config)
+    universe = _indoors(states == FREE, evidence, planes, doors, config)
     if not universe.any():
         raise NoPlanError(
             f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height to a "
@@ -51,28 +55,69 @@ def _best_height(evidence: Evidence) -> float:
 
 
 def _indoors(
-    free: Mask, evidence: Evidence, planes: tuple[LayoutPlane, ...], config: OccupancyConfig
+    free: Mask,
+    evidence: Evidence,
+    planes: tuple[LayoutPlane, ...],
+    doors: tuple[Door, ...],
+    config: OccupancyConfig,
 ) -> Mask:
-    """The free cells in patches that are large enough and not outside."""
+    """The free cells in patches that are large enough and not outside.
+
+    Inside is where the sensor was, what lies under ceiling, and what a door joins to the inside over seen floor.
+    """
     import cv2
 
-    inside = free & ~_wall_cells(evidence, planes)
-    count, label = cv2.connectedComponents(inside.astype(np.uint8), connectivity=4)
+    count, label = cv2.connectedComponents(
+        (free & ~_wall_cells(evidence, planes)).astype(np.uint8), connectivity=4
+    )
     area = np.bincount(label.ravel(), minlength=count)
+    large = area * evidence.cell**2 >= config.min_component
     visited = np.zeros(count, dtype=bool)
     visited[_labels_at(label, evidence.path, evidence)] = True
-    keep = (area * evidence.cell**2 >= config.min_component) | visited
-    for cover in (_ceiling_cells(evidence), _floor_cells(evidence)):
-        share = np.bincount(label.ravel(), weights=cover.ravel(), minlength=count) / np.maximum(area, 1)
-        sure = visited if visited[1:].any() else keep
-        typical = (
-            float(np.average(share[1:], weights=area[1:] * sure[1:])) if (area[1:] * sure[1:]).any() else 0.0
-        )
-        if typical > 2 * config.indoor_share:
-            keep &= visited | (share >= config.indoor_share)
-            break
-    keep[0] = False
-    return keep[label]
+    visited[0] = False
+
+    def share(cover: Mask) -> Float:
+        return np.bincount(label.ravel(), weights=cover.ravel(), minlength=count) / np.maximum(area, 1)
+
+    sure = visited if visited.any() else large
+    ceiling, floor = share(_ceiling_cells(evidence)), share(_floor_cells(evidence))
+    shown = [
+        s
+        for s in (ceiling, floor)
+        if float(np.sum((s * area * sure)[1:]))
+        > _TYPICAL * config.indoor_share * float(np.sum((area * sure)[1:]))
+    ]
+    inside = visited | (large & (shown[0] >= config.indoor_share)) if shown else visited | large
+    over_floor = large & ((floor >= config.indoor_share) | (ceiling >= config.indoor_share))
+    inside = _through_doors(inside, over_floor, doors, label, evidence)
+    inside[0] = False
+    return np.asarray(inside[label])
+
+
+def _through_doors(
+    inside: Mask, possible: Mask, doors: tuple[Door, ...], label: NDArray[np.int32], evidence: Evidence
+) -> Mask:
+    """Patches that are ``possible`` and that doors join to the inside, directly or through others."""
+    sides = [tuple(_beside(door, sign, label, evidence) for sign in (-1, 1)) for door in doors]
+    inside, grown = inside.copy(), True
+    while grown:
+        grown = False
+        for one, other in (*sides, *((b, a) for a, b in sides)):
+            new = [k for k in other if possible[k] and not inside[k]]
+            if new and any(inside[k] for k in one):
+                inside[new] = True
+                grown = True
+    return inside
+
+
+def _beside(door: Door, sign: int, label: NDArray[np.int32], evidence: Evidence) -> list[int]:
+    """Labels of the patches just beyond one face of a door."""
+    grid = label if door.axis == 0 else label.T
+    u = door.offset + sign * (door.thickness / 2 + np.array([0.05, _BEYOND]))
+    u0, u1 = np.sort(((u - evidence.origin[door.axis]) / evidence.cell).astype(int))
+    v0, v1 = ((np.array([door.start, door.end]) - evidence.origin[1 - door.axis]) / evidence.cell).astype(int)
+    found = np.unique(grid[max(v0, 0) : v1 + 1, max(u0, 0) : u1 + 1])
+    return [int(k) for k in found if k > 0]
 
 
 def _wall_cells(evidence: Evidence, planes: tuple[LayoutPlane, ...]) -> Mask:
