@@ -1,0 +1,167 @@
+"""LAS and LAZ 1.2 to 1.4 (laspy, lazrs): scaled integers, GPS time, classes, coordinate reference system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from floorcast_plugins._las_header import LasHead, name_of_crs, read_las_head, reference_system
+
+from floorplan_core.api import (
+    CHUNK_POINTS,
+    SAMPLE_POINTS,
+    SCAN_ID_NAMES,
+    InputError,
+    Observer,
+    PointSource,
+    RawChunk,
+    Reader,
+    ReadOptions,
+    Reconstruction,
+    as_scan_id,
+    assemble,
+    damaged,
+    find_name,
+    hookimpl,
+    import_library,
+    join_chunks,
+)
+
+NOISE = (7, 18)  # ASPRS classes: low point, high noise
+CHUNK_BYTES = 64 << 20  # of records: wide ones come in smaller chunks
+SAMPLE_BLOCKS = 128  # of LAS
+SAMPLE_CHUNKS = 8  # of LAZ, where each place costs the decoding of a whole chunk of 50,000 points
+
+
+@hookimpl
+def floorcast_readers() -> list[Reader]:
+    return [LasReader()]
+
+
+class LasReader:
+    """Airborne and mobile mapping's format."""
+
+    name = "LAS"
+    suffixes: tuple[str, ...] = (".las", ".laz")
+    description = "LAS and LAZ 1.2 to 1.4, with GPS time, classes and CRS"
+
+    def sniff(self, path: Path, head: bytes) -> float:
+        """1 where the file begins with ``LASF``."""
+        return 1.0 if head.startswith(b"LASF") else 0.0
+
+    def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
+        """Open the file; :class:`InputError` where header and contents do not agree."""
+        return assemble(las_source(path, observer), options, observer)
+
+
+def las_source(path: Path, observer: Observer) -> PointSource:
+    """The points of a LAS or LAZ file."""
+    head = read_las_head(path)
+    with _opened(path) as file, damaged(path.name, "LAS file"):
+        names = tuple(file.header.point_format.dimension_names)
+        crs, unit = reference_system(file.header.vlrs)
+    if unit == "deg":
+        raise InputError(
+            f"The coordinates of {path.name} are degrees ({name_of_crs(crs)}); project them to metres first."
+        )
+    notes = (f"Coordinates are in {name_of_crs(crs)}; this is kept for export.",) if crs else ()
+    sample = _sample(path, head, names)
+    if "gps_time" in names and not _tells_time(sample):
+        names = tuple(n for n in names if n != "gps_time")
+        sample = RawChunk(sample.points, sample.scan_id)
+    return PointSource(
+        path,
+        "LAZ" if head.compressed else "LAS",
+        partial(_counted_chunks, path, head, names, observer, []),
+        lambda: sample,
+        head.count,
+        find_name(names, SCAN_ID_NAMES) is not None,
+        notes=notes,
+        unit=unit,
+        up="z",
+        crs=crs,
+    )
+
+
+def _opened(path: Path) -> Any:
+    """laspy's reader; what it raises over the header is one sentence."""
+    laspy = import_library("laspy", "laspy[lazrs]", "LAS and LAZ")
+    with damaged(path.name, "LAS file"):
+        return laspy.open(path, read_evlrs=False)
+
+
+def _counted_chunks(
+    path: Path, head: LasHead, names: tuple[str, ...], observer: Observer, reported: list[bool]
+) -> Iterator[RawChunk]:
+    """All points but noise; the first whole pass says how much of that there was."""
+    noise = 0
+    for chunk, dropped in _chunks(path, head, names):
+        noise += dropped
+        yield chunk
+    if noise and not reported:
+        reported.append(True)
+        observer.warning(
+            f"{noise:,} of the {head.count:,} points of {path.name} are classified as noise or withheld; "
+            "they were left out."
+        )
+
+
+def _chunks(path: Path, head: LasHead, names: tuple[str, ...]) -> Iterator[tuple[RawChunk, int]]:
+    """Points, and how many were noise, a chunk at a time."""
+    size = _chunk_size(head)
+    with _opened(path) as file:
+        left = head.count
+        while left > 0:
+            with damaged(path.name, "LAS file"):
+                records = file.read_points(size)
+                chunk = _points(records, names)
+            if len(records) < min(size, left):
+                raise InputError(
+                    f"{path.name} is truncated: its header promises {head.count:,} points, "
+                    f"{head.count - left + len(records):,} of them exist."
+                )
+            left -= len(records)
+            yield chunk
+
+
+def _chunk_size(head: LasHead) -> int:
+    return max(1, min(CHUNK_POINTS, CHUNK_BYTES // head.record))
+
+
+def _points(records: Any, names: tuple[str, ...]) -> tuple[RawChunk, int]:
+    """Coordinates, scan ids and GPS times of those records that are no noise."""
+    bad = np.isin(np.asarray(records.classification), NOISE)
+    if "withheld" in names:
+        bad |= np.asarray(records.withheld).astype(bool)
+    raw = records.array if not bad.any() else records.array[~bad]
+    points = np.empty((len(raw), 3))
+    with np.errstate(over="ignore", invalid="ignore"):
+        for axis, name in enumerate("XYZ"):
+            points[:, axis] = raw[name] * records.scales[axis] + records.offsets[axis]
+    scan = find_name(names, SCAN_ID_NAMES)
+    ids = None if scan is None else as_scan_id(np.asarray(records[scan])[~bad])
+    stamps = raw["gps_time"].astype(np.float64) if "gps_time" in names else None
+    return RawChunk(points, ids, stamps), int(np.count_nonzero(bad))
+
+
+def _sample(path: Path, head: LasHead, names: tuple[str, ...]) -> RawChunk:
+    """Points of places that are spread over the file."""
+    places = SAMPLE_CHUNKS if head.compressed else SAMPLE_BLOCKS
+    length = min(head.count, SAMPLE_POINTS if head.count <= SAMPLE_POINTS else SAMPLE_POINTS // places)
+    starts = [0] if length == head.count else np.linspace(0, head.count - length, places).astype(int).tolist()
+    parts = []
+    with _opened(path) as file, damaged(path.name, "LAS file"):
+        for start in starts:
+            if start:
+                file.seek(start)
+            parts.append(_points(file.read_points(length), names)[0])
+    return join_chunks(parts)
+
+
+def _tells_time(sample: RawChunk) -> bool:
+    """True where the GPS times differ; many writers leave them at zero."""
+    stamps = sample.stamps
+    return stamps is not None and len(stamps) > 0 and bool(np.ptp(stamps) > 0)
