@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.model import (
+    CandidateSet,
     Door,
     Facing,
     FloorPlan,
@@ -48,9 +49,13 @@ from floorplan_core.stages.speculation import frontier_planes
 from floorplan_core.stages.voxel_columns import gather_evidence
 from floorplan_core.stages.wall_points import thin_wall_points
 
+if TYPE_CHECKING:
+    from floorplan_core.plugins import RegionClassifier
+
 Float = NDArray[np.float64]
 T = TypeVar("T")
 
+MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
 LATTICE_SAMPLE = 100_000  # first points of a run, which show whether it is a voxel map; waiting takes 3 MB
 
@@ -81,6 +86,10 @@ class FloorPlanner:
         )
         self._waiting: list[Scan] = []  # what came before that was known
         self.seconds: dict[str, float] = {}
+
+    def expect(self, points: int) -> None:
+        """Say how many points will come, so that the maps need not grow step by step."""
+        self._surfels.reserve(min(points, MOST_RESERVED))
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
         """Add one scan.
@@ -240,7 +249,7 @@ class FloorPlanner:
             evidence.path, self.source, self._surfels.points, config, tuple(warnings), seconds,
         )  # fmt: skip
 
-    def _classifier(self):  # type: ignore[no-untyped-def]
+    def _classifier(self) -> RegionClassifier:
         from floorplan_core.stages.labels import PaperClassifier
 
         if self.config.labels.classifier == PaperClassifier.name:
@@ -252,9 +261,11 @@ class FloorPlanner:
 
 def _candidates(
     planes: list[LayoutPlane], walls: Float, grid: OccupancyGrid, config: Config, observer: Observer
-):  # type: ignore[no-untyped-def]
-    offsets = [np.unique([p.offset for p in planes if p.facing == facing]) for facing in Facing]
-    return enumerate_candidates(*offsets, walls, grid, config.candidates, observer)
+) -> CandidateSet:
+    east, west, north, south = (
+        np.unique([p.offset for p in planes if p.facing == facing]) for facing in Facing
+    )
+    return enumerate_candidates(east, west, north, south, walls, grid, config.candidates, observer)
 
 
 def _cover_the_rest(
@@ -304,6 +315,7 @@ def process(
     """The batch call: integrate every chunk, then plan."""
     observer = observer or Observer()
     planner = FloorPlanner(config, observer, reconstruction.name, reconstruction.local_frame)
+    planner.expect(reconstruction.point_count or 0)
     began, done = time.perf_counter(), 0
     observer.stage_started("read", reconstruction.point_count)
     for chunk in reconstruction.chunks():
