@@ -28,7 +28,7 @@ class CellNormals:
     cell_of: NDArray[np.int32]  # (N,) planar cell of each surfel, -1 where none
 
 
-def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int = 40_000) -> CellNormals:
+def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int = 20_000) -> CellNormals:
     """Fit a plane in every cell of side ``cell`` (metres); keep those thinner than ``planarity`` times their width.
 
     With more than ``most`` expected cells only every k-th (by a hash of its place) is used.

@@ -70,27 +70,17 @@ class MissMap:
         shape: tuple[int, int],
         z0: float,
         levels: int,
-        least: int,
-    ) -> NDArray[np.uint64]:
-        """(ny, nx) bit ``k`` set where at least ``least`` rays passed level k of the column.
+        least: tuple[int, int],
+    ) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
+        """Two (ny, nx) words: bit ``k`` set where at least ``least[0]`` (``least[1]``) rays passed level k.
 
         The map is sampled at the cell centres of a grid in another frame: ``rotation`` takes local to grid
         coordinates; column [iy, ix] starts at ``origin + cell * [ix, iy]``, level k at ``z0 + k * cell``.
         """
         return _column_bits(
-            self._keys,
-            self._ids,
-            self._pool,
-            self.size,
-            rotation,
-            origin,
-            cell,
-            shape[0],
-            shape[1],
-            z0,
-            levels,
-            least,
-        )
+            self._keys, self._ids, self._pool, self.size, np.ascontiguousarray(rotation), origin, cell,
+            shape[0], shape[1], z0, levels, least[0], least[1],
+        )  # fmt: skip
 
 
 @njit(cache=True, inline="always")
@@ -162,8 +152,8 @@ def _rehash(keys, ids, new_keys, new_ids):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, levels, least):  # type: ignore[no-untyped-def]
-    out = np.zeros((ny, nx), dtype=np.uint64)
+def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, levels, few, many):  # type: ignore[no-untyped-def]
+    out, strong = np.zeros((ny, nx), dtype=np.uint64), np.zeros((ny, nx), dtype=np.uint64)
     inverse = 1.0 / size
     r = rotation * inverse
     for iy in range(ny):
@@ -171,7 +161,7 @@ def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, leve
         for ix in range(nx):
             gx = origin[0] + (ix + 0.5) * cell
             fx, fy, fz = r[0, 0] * gx + r[1, 0] * gy, r[0, 1] * gx + r[1, 1] * gy, r[0, 2] * gx + r[1, 2] * gy
-            bits = np.uint64(0)
+            bits, more = np.uint64(0), np.uint64(0)
             bx, by, bz, block = 1 << 40, 0, 0, -1
             for k in range(levels):
                 gz = z0 + (k + 0.5) * cell
@@ -182,7 +172,11 @@ def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, leve
                     bx, by, bz = x >> 4, y >> 4, z >> 4
                     slot = _find(pack(bx, by, bz), keys)
                     block = ids[slot] if keys[slot] != EMPTY else -1
-                if block >= 0 and pool[block, ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)] >= least:
-                    bits |= np.uint64(1) << np.uint64(k)
-            out[iy, ix] = bits
-    return out
+                if block >= 0:
+                    rays = pool[block, ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)]
+                    if rays >= few:
+                        bits |= np.uint64(1) << np.uint64(k)
+                    if rays >= many:
+                        more |= np.uint64(1) << np.uint64(k)
+            out[iy, ix], strong[iy, ix] = bits, more
+    return out, strong

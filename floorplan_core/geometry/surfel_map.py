@@ -54,6 +54,11 @@ class SurfelMap:
     def __len__(self) -> int:
         return self._used
 
+    def reserve(self, surfels: int) -> None:
+        """Make room for that many surfels at once instead of growing step by step."""
+        while len(self._keys) < surfels:
+            self._grow(max(2, 1 << (int(surfels - 1).bit_length() - len(self._keys).bit_length() + 1)))
+
     def insert(
         self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
     ) -> None:
@@ -71,10 +76,11 @@ class SurfelMap:
             if start < len(points):
                 self._grow()
 
-    def _grow(self) -> None:
-        capacity = 2 * len(self._keys)
-        self._keys = np.concatenate([self._keys, np.zeros(capacity // 2, dtype=np.int64)])
-        self._sums = np.concatenate([self._sums, np.zeros((capacity // 2, COLUMNS), dtype=np.int32)])
+    def _grow(self, factor: int = 2) -> None:
+        capacity = factor * len(self._keys)
+        keys, sums = np.zeros(capacity, dtype=np.int64), np.zeros((capacity, COLUMNS), dtype=np.int32)
+        keys[: self._used], sums[: self._used] = self._keys[: self._used], self._sums[: self._used]
+        self._keys, self._sums = keys, sums
         self._table = np.full(2 * capacity, EMPTY, dtype=np.int64)
         self._row = np.zeros(2 * capacity, dtype=np.int32)
         _fill(self._keys, self._used, self._table, self._row)

@@ -60,8 +60,9 @@ def find_segments(
     evidence: Evidence, config: SegmentsConfig
 ) -> tuple[tuple[LayoutSegment, ...], dict[str, SegmentRows]]:
     """All segments, by facing, then offset, then start; and the rows that each is made of."""
-    with ThreadPoolExecutor(2) as pool:
-        found = list(pool.map(lambda facing: _segments_of(evidence, facing, config), Facing))
+    upright = _in_wall_band(evidence)
+    with ThreadPoolExecutor(len(Facing)) as pool:
+        found = list(pool.map(lambda facing: _segments_of(upright, facing, config), Facing))
     segments: list[LayoutSegment] = []
     rows: dict[str, SegmentRows] = {}
     for group in found:
@@ -70,6 +71,34 @@ def find_segments(
             segments.append(named)
             rows[named.id] = row
     return tuple(segments), rows
+
+
+def _in_wall_band(evidence: Evidence) -> Evidence:
+    """The evidence without the surfels of floor and ceiling, which are most of them."""
+    top = LEVEL * int(wall_band(evidence)).bit_length()
+    xyz, count, spread, view = _between(
+        evidence.xyz, evidence.count, evidence.spread, evidence.view, _SKIRTING, top
+    )
+    return replace(evidence, xyz=xyz, count=count, spread=spread, view=view)
+
+
+@njit(cache=True, nogil=True)
+def _between(xyz, count, spread, view, low, high):  # type: ignore[no-untyped-def]
+    """The surfels with ``low < z < high``."""
+    n = 0
+    for i in range(len(xyz)):
+        n += low < xyz[i, 2] < high
+    xyz_, count_ = np.empty((n, 3)), np.empty(n, dtype=count.dtype)
+    spread_, view_ = np.empty((n, 2)), np.empty((n, 2))
+    k = 0
+    for i in range(len(xyz)):
+        if low < xyz[i, 2] < high:
+            xyz_[k, 0], xyz_[k, 1], xyz_[k, 2] = xyz[i, 0], xyz[i, 1], xyz[i, 2]
+            count_[k] = count[i]
+            spread_[k, 0], spread_[k, 1] = spread[i, 0], spread[i, 1]
+            view_[k, 0], view_[k, 1] = view[i, 0], view[i, 1]
+            k += 1
+    return xyz_, count_, spread_, view_
 
 
 def _segments_of(

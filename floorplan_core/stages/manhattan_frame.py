@@ -182,9 +182,8 @@ def _floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) 
     n = normals.normal @ rotation.T
     z = (normals.centre @ rotation.T)[:, 2]
     flat = np.abs(n[:, 2]) > math.cos(math.radians(20))
-    all_z = surfels.centroid @ rotation[2]
     if normals.weight[flat].sum() < 100:
-        return float(np.percentile(all_z, 0.5)), None
+        return float(np.percentile(surfels.centroid @ rotation[2], 0.5)), None
     zf, w = z[flat], normals.weight[flat]
     bins = np.arange(zf.min() - 0.05, zf.max() + 0.11, 0.05)
     hist, _ = np.histogram(zf, bins=bins, weights=w)

@@ -21,6 +21,7 @@ from floorplan_core.model.evidence import Evidence
 
 Float = NDArray[np.float64]
 
+_SAMPLE = 200_000  # surfels from which the extent is taken
 _MARGIN = 1.0  # m of empty cells around the data
 _LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
 _FLOOR_LEVELS = np.uint64(0b11)  # a column's floor is seen in the two lowest levels
@@ -31,10 +32,9 @@ def gather_evidence(
 ) -> Evidence:
     """Turn the maps into the manhattan frame; ``path`` is (M, 3) sensor positions, local frame."""
     viewpoints = misses.blocks > 0
-    xyz = frame.to_manhattan(surfels.centroid)
-    xyz[:, 2] -= frame.floor_z
-    view = surfels.view @ frame.rotation[:2, :2].T
-    spread = _rotate_variance(surfels.variance, frame.rotation)
+    xyz, view, spread = turn_surfels(
+        surfels.centroid, surfels.view, surfels.variance, np.ascontiguousarray(frame.rotation), frame.floor_z
+    )
     path_xy = frame.to_manhattan(path)[:, :2] if len(path) else np.zeros((0, 2))
     cell = config.size
     origin, shape = _grid(xyz, path_xy, cell)
@@ -42,12 +42,8 @@ def gather_evidence(
     hits = hit_columns(xyz, origin, fine, 2 * shape[0], 2 * shape[1])
     surface = _merge_cells(hits)
     if viewpoints:
-        rays = misses.column_bits(
-            frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, config.min_misses
-        )
-        many = misses.column_bits(
-            frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, round(1 / config.hit_ratio) + 1
-        )
+        least = (config.min_misses, round(1 / config.hit_ratio) + 1)
+        rays, many = misses.column_bits(frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, least)
         occupied = surface & ~(many & ~_solid(surface))
         free = rays & ~occupied
     else:
@@ -59,18 +55,29 @@ def gather_evidence(
     )  # fmt: skip
 
 
-def _rotate_variance(variance: Float, rotation: Float) -> Float:
-    """Variances along x and y of the manhattan frame from xx, xy, yy of the local one."""
-    xx, xy, yy = variance.T
-    r = rotation[:2, :2]
-    return np.column_stack(
-        [r[k, 0] ** 2 * xx + 2 * r[k, 0] * r[k, 1] * xy + r[k, 1] ** 2 * yy for k in (0, 1)]
-    )
+@njit(cache=True, nogil=True)
+def turn_surfels(centroid, view, variance, rotation, floor):  # type: ignore[no-untyped-def]
+    """Centroids (z above the floor), views and the variances along x and y, in the frame of ``rotation``."""
+    n, r = len(centroid), rotation
+    xyz, turned, spread = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
+    for i in range(n):
+        x, y, z = centroid[i, 0], centroid[i, 1], centroid[i, 2]
+        for k in range(3):
+            xyz[i, k] = r[k, 0] * x + r[k, 1] * y + r[k, 2] * z
+        xyz[i, 2] -= floor
+        for k in range(2):
+            turned[i, k] = r[k, 0] * view[i, 0] + r[k, 1] * view[i, 1]
+            spread[i, k] = (
+                r[k, 0] ** 2 * variance[i, 0]
+                + 2 * r[k, 0] * r[k, 1] * variance[i, 1]
+                + r[k, 1] ** 2 * variance[i, 2]
+            )
+    return xyz, turned, spread
 
 
 def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]:
     """Origin and shape of the coarse grid; the outermost hundredth of a percent of surfels does not count."""
-    xy = xyz[:, :2]
+    xy = xyz[:: max(1, len(xyz) // _SAMPLE), :2]
     low, high = np.percentile(xy, [0.01, 99.99], axis=0)
     if len(path):
         low, high = np.minimum(low, path.min(axis=0)), np.maximum(high, path.max(axis=0))

@@ -38,7 +38,7 @@ def _walk(origin: np.ndarray, point: np.ndarray) -> list[tuple[int, int, int]]:
 def _bits(
     misses: MissMap, least: int = 1, low=(-6.0, -6.0), shape=(120, 120), z0: float = -2.0
 ) -> np.ndarray:
-    return misses.column_bits(np.eye(3), np.array(low), SIZE, shape, z0, LEVELS, least)
+    return misses.column_bits(np.eye(3), np.array(low), SIZE, shape, z0, LEVELS, (least, least))[0]
 
 
 def _counted(bits: np.ndarray, low=(-60, -60, -20)) -> set[tuple[int, int, int]]:
@@ -121,7 +121,7 @@ def test_columns_in_a_turned_grid_see_the_same_space(degrees):
     rotation = np.array(
         [[math.cos(angle), math.sin(angle), 0], [-math.sin(angle), math.cos(angle), 0], [0, 0, 1]]
     )
-    turned = misses.column_bits(rotation, np.array([-6.0, -6.0]), SIZE, (120, 120), -2.0, LEVELS, 1)
+    turned = misses.column_bits(rotation, np.array([-6.0, -6.0]), SIZE, (120, 120), -2.0, LEVELS, (1, 1))[0]
     iy, ix = np.mgrid[0:120, 0:120]
     straight = _counted(_bits(misses))
     for k in range(0, LEVELS, 7):
