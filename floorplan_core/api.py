@@ -35,6 +35,7 @@ from floorplan_core.readers.source import (
     ScanIds,
 )
 from floorplan_core.readers.trajectory import read_trajectory, rotation_from_quaternion
+from floorplan_core.readers.trajectory_check import WrongTrajectory
 
 __all__ = [
     "CHUNK_POINTS",
@@ -72,6 +73,7 @@ __all__ = [
     "ScanIds",
     "Trajectory",
     "UsageError",
+    "WrongTrajectory",
     "as_scan_id",
     "assemble",
     "damaged",

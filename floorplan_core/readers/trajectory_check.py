@@ -26,6 +26,10 @@ RAY_STEPS = 60
 MAX_RAYS = 1000
 
 
+class WrongTrajectory(InputError):
+    """A trajectory that cannot have seen the points; a reader that guessed it may go on without."""
+
+
 def check_rows(cloud: str, ids: ScanIds, rows: int) -> None:
     """:class:`InputError` where points refer to rows that the trajectory has not."""
     if ids.lowest < 0:
@@ -71,10 +75,10 @@ def check_plausible(
     trajectory: Trajectory,
     max_range: float,
 ) -> None:
-    """:class:`InputError` where a trajectory cannot have seen the points (all in metres, one frame)."""
+    """:class:`WrongTrajectory` where a trajectory cannot have seen the points (all in metres, one frame)."""
     inside, margin = share_inside(points, trajectory.origins)
     if inside < MIN_INSIDE:
-        raise InputError(
+        raise WrongTrajectory(
             f"The trajectory is not of the survey {cloud}: {1 - inside:.0%} of its positions lie "
             f"more than {margin:.0f} m outside the points; give the right one with --trajectory."
         )
@@ -83,7 +87,7 @@ def check_plausible(
     origins = trajectory.origins[scan_id]
     distance = float(np.median(np.linalg.norm(points - origins, axis=1)))
     if distance > max_range:
-        raise InputError(
+        raise WrongTrajectory(
             f"The trajectory is not of the survey {cloud}: half of the points are more than {distance:.0f} m "
             f"from the sensor that it gives them (the maximum range is {max_range:g} m); give the right one."
         )
@@ -91,7 +95,7 @@ def check_plausible(
     if distance > NEARER * float(np.median(np.linalg.norm(points - others, axis=1))):
         share = crossing_share(points, origins)
         if share > MAX_CROSSING:
-            raise InputError(
+            raise WrongTrajectory(
                 f"The trajectory is not of the survey {cloud}: {share:.0%} of the points lie behind walls, "
                 "seen from the sensor that it gives them; give the right one with --trajectory."
             )

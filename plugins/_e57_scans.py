@@ -1,0 +1,179 @@
+"""The scans of an E57 file (ASTM E2807) through libE57: what each holds, and its points in buffers."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.api import CHUNK_POINTS, InputError, damaged, import_library, rotation_from_quaternion
+
+HEADER = struct.Struct("<8sIIQQQQ")
+PAGE, CHECKSUM = 1024, 4  # bytes of a page, and of the checksum at its end
+MAX_XML = 256 << 20  # bytes: some 100,000 scans
+CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
+SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
+INVALID = ("cartesianInvalidState", "sphericalInvalidState")
+STRUCTURE = ("rowIndex", "columnIndex")
+MIN_QUATERNION = 1e-6
+
+
+@dataclass(frozen=True)
+class E57Scan:
+    """One scan of the file that holds points."""
+
+    index: int  # in the file's data3D
+    count: int
+    fields: frozenset[str]
+    pose: NDArray[np.float64]  # (4, 4) T_file_scan; identity where none is given
+    posed: bool  # a pose is given that is not the identity
+    seconds: float  # start of the acquisition; 0 where unknown
+
+    @property
+    def spherical(self) -> bool:
+        """True where only angles and ranges are there."""
+        return not self.fields.issuperset(CARTESIAN)
+
+    @property
+    def from_sensor(self) -> bool:
+        """True where the origin of the scan's frame is where the scanner stood."""
+        return self.posed or self.spherical or self.fields.issuperset(STRUCTURE)
+
+
+def check_file(path: Path) -> None:
+    """Length, page size and XML section, before a library believes them."""
+    total = path.stat().st_size
+    with path.open("rb") as handle:
+        head = handle.read(HEADER.size)
+        if len(head) < HEADER.size:
+            raise InputError(f"{path.name} is truncated inside its E57 header ({len(head)} bytes).")
+        _, major, minor, length, at, size, page = HEADER.unpack(head)
+        if major != 1:
+            raise InputError(f"{path.name} is E57 version {major}.{minor}; readable is version 1.")
+        if length != total:
+            raise InputError(
+                f"{path.name} is truncated or damaged: its header says {length:,} bytes, it has {total:,}."
+            )
+        if page != PAGE or at + size > total or size > MAX_XML:
+            raise InputError(f"{path.name} is damaged: its E57 header points outside the file.")
+        handle.seek(at - at % PAGE)
+        data = handle.read((size // (PAGE - CHECKSUM) + 2) * PAGE)
+    pages = np.frombuffer(data[: len(data) // PAGE * PAGE], np.uint8).reshape(-1, PAGE)
+    if b"<!DOCTYPE" in pages[:, : PAGE - CHECKSUM].tobytes():
+        raise InputError(f"{path.name} defines XML entities of its own, which is refused: E57 has none.")
+
+
+def open_image(path: Path) -> Any:
+    """libE57's image file; what it raises is one sentence."""
+    libe57 = import_library("pye57", "pye57", "E57").libe57
+    with damaged(path.name, "E57 file"):
+        return libe57.ImageFile(str(path), "r")
+
+
+def list_scans(path: Path) -> list[E57Scan]:
+    """The scans that hold points, in the order of the file."""
+    image = open_image(path)
+    try:
+        with damaged(path.name, "E57 file"):
+            root = image.root()
+            data = root["data3D"] if root.isDefined("data3D") else []
+            scans = [_describe(path, data[k], k) for k in range(len(data))]
+    finally:
+        image.close()
+    return [scan for scan in scans if scan.count > 0]
+
+
+def read_scan(path: Path, scan: E57Scan, size: int = CHUNK_POINTS) -> Iterator[tuple[Any, Any]]:
+    """(N, 3) float64 valid points in the scan's frame and their (N,) time stamps or None, in buffers.
+
+    Raises :class:`InputError` where fewer records follow than the file promises.
+    """
+    names = [*(SPHERICAL if scan.spherical else CARTESIAN)]
+    names += [name for name in (*INVALID, "timeStamp") if name in scan.fields]
+    image = open_image(path)
+    try:
+        with damaged(path.name, "E57 file"):
+            columns, reader = _reader(image, scan, names, min(size, scan.count))
+        left = scan.count
+        while left > 0:
+            with damaged(path.name, "E57 file"):
+                read = int(reader.read())
+            if read <= 0:
+                raise InputError(
+                    f"{path.name} is truncated: scan {scan.index} promises {scan.count:,} points, "
+                    f"{scan.count - left:,} of them exist."
+                )
+            left -= read
+            yield _valid_points({name: column[:read] for name, column in columns.items()}, scan.spherical)
+    finally:
+        image.close()
+
+
+def _reader(image: Any, scan: E57Scan, names: list[str], size: int) -> tuple[dict[str, Any], Any]:
+    libe57 = import_library("pye57", "pye57", "E57").libe57
+    columns = {name: np.empty(size, "i1" if name in INVALID else "f8") for name in names}
+    buffers = libe57.VectorSourceDestBuffer()
+    for name, column in columns.items():
+        buffers.append(libe57.SourceDestBuffer(image, name, column, size, True, True))
+    points = image.root()["data3D"][scan.index]["points"]
+    return columns, points.reader(buffers)
+
+
+def _valid_points(columns: dict[str, Any], spherical: bool) -> tuple[Any, Any]:
+    valid = np.ones(len(next(iter(columns.values()))), dtype=bool)
+    for name in INVALID:
+        if name in columns:
+            valid &= columns[name] == 0
+    a, b, c = (columns[name][valid] for name in (SPHERICAL if spherical else CARTESIAN))
+    if spherical:
+        with np.errstate(invalid="ignore", over="ignore"):
+            level = a * np.cos(c)
+            a, b, c = level * np.cos(b), level * np.sin(b), a * np.sin(c)
+    stamps = columns["timeStamp"][valid] if "timeStamp" in columns else None
+    return np.column_stack([a, b, c]), stamps
+
+
+def _describe(path: Path, node: Any, index: int) -> E57Scan:
+    libe57 = import_library("pye57", "pye57", "E57").libe57
+    points = node["points"]
+    prototype = libe57.StructureNode(points.prototype())
+    fields = frozenset(prototype.get(k).elementName() for k in range(prototype.childCount()))
+    if not (fields.issuperset(CARTESIAN) or fields.issuperset(SPHERICAL)):
+        raise InputError(
+            f"Scan {index} of {path.name} has neither cartesian nor spherical coordinates (it has: "
+            f"{', '.join(sorted(fields))[:100]})."
+        )
+    pose = _pose(path, node, index)
+    posed = bool(np.abs(pose - np.eye(4)).max() > 0)
+    return E57Scan(index, int(points.childCount()), fields, pose, posed, _seconds(node))
+
+
+def _pose(path: Path, node: Any, index: int) -> NDArray[np.float64]:
+    pose = np.eye(4)
+    if not node.isDefined("pose"):
+        return pose
+    if node.isDefined("pose/rotation"):
+        q = np.array([node["pose"]["rotation"][name].value() for name in "xyzw"], dtype=np.float64)
+        norm = float(np.linalg.norm(q))
+        if not np.isfinite(norm) or norm < MIN_QUATERNION:
+            raise InputError(f"The pose of scan {index} of {path.name} has a quaternion that is no rotation.")
+        pose[:3, :3] = rotation_from_quaternion(q[None] / norm)[0]
+    if node.isDefined("pose/translation"):
+        pose[:3, 3] = [node["pose"]["translation"][name].value() for name in "xyz"]
+    if not np.isfinite(pose).all():
+        raise InputError(
+            f"The pose of scan {index} of {path.name} holds a value that is not a finite number."
+        )
+    return pose
+
+
+def _seconds(node: Any) -> float:
+    if not node.isDefined("acquisitionStart/dateTimeValue"):
+        return 0.0
+    value = float(node["acquisitionStart"]["dateTimeValue"].value())
+    return value if np.isfinite(value) else 0.0
