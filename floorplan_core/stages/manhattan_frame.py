@@ -10,6 +10,7 @@ sharpest. Cost: one pass over the surfels, plus the search on a bounded sample.
 from __future__ import annotations
 
 import math
+from typing import TypeVar
 
 import numpy as np
 from numba import njit
@@ -22,6 +23,7 @@ from floorplan_core.geometry.surfel_map import Surfels
 from floorplan_core.model import ManhattanFrame
 
 Float = NDArray[np.float64]
+Angle = TypeVar("Angle", float, NDArray[np.float64])  # radians
 
 _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
 _SEARCH = math.radians(3)  # normals are right to this; the search for sharp walls covers it
@@ -29,6 +31,7 @@ _OFFSET_BIN = 0.02  # m, of the projection that is to be sharp
 _SAMPLE = 60_000  # surfels that the search looks at
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
+_FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 
 def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
@@ -41,10 +44,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     share = float(np.count_nonzero(normals.cell_of >= 0)) / max(float(normals.weight.sum()), 1.0)
     area = float(normals.weight[vertical].sum()) * surfels.size**2 * max(share, 1.0)
     if area < _MIN_WALL_AREA:
-        raise NoPlanError(
-            f"No walls were found: only {area:.2f} m2 of vertical surface among {len(surfels)} occupied voxels; "
-            "check the unit and the up axis (--unit, --up), or scan more of the walls."
-        )
+        raise NoPlanError(_no_walls(area, len(surfels), float(np.ptp(surfels.centroid @ up))))
     angle = np.arctan2(n[vertical, 1], n[vertical, 0])
     weight = normals.weight[vertical]
     if config.yaw_deg is not None:
@@ -59,12 +59,20 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
         raise NoPlanError(
             f"This is no Manhattan world: only {support:.0%} of the wall surface is within "
             f"{config.tolerance_deg:g} degrees of two perpendicular directions "
-            f"(frame.min_support is {config.min_support:.0%}); if the building has walls at other angles, lower it."
+            f"(frame.min_support is {config.min_support:.0%}); if the building has walls at other angles, "
+            "lower it."
         )
     rotation = _rotation_about_z(-yaw) @ level
     floor, ceiling = _floor_and_ceiling(surfels, normals, rotation)
     tilt = math.acos(float(np.clip(up[2], -1, 1)))
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
+
+
+def _no_walls(area: float, voxels: int, height: float) -> str:
+    what = f"No walls were found: only {area:.2f} m2 of vertical surface among {voxels} occupied voxels"
+    if height < _FLAT:
+        return f"{what}, all within {height:.2f} m of height; a 2-D scan has no walls, give a 3-D survey."
+    return f"{what}; check the unit and the up axis (--unit, --up), or scan more of the walls."
 
 
 def _gravity(normals: CellNormals) -> Float:
@@ -76,7 +84,7 @@ def _gravity(normals: CellNormals) -> Float:
     if w.sum() < 50:  # nothing horizontal was seen: trust the file
         return up
     bins = np.round(n[:, :2] / 0.05).astype(int)
-    cells, inverse = np.unique(bins, axis=0, return_inverse=True)
+    _, inverse = np.unique(bins, axis=0, return_inverse=True)
     mode = n[inverse.ravel() == np.argmax(np.bincount(inverse.ravel(), weights=w))].mean(axis=0)
     up = mode / np.linalg.norm(mode)
     for cone in (8.0, 5.0, 3.0, 3.0, 3.0):
@@ -100,7 +108,7 @@ def _rotation_about_z(angle: float) -> Float:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _wrap(angle):  # type: ignore[no-untyped-def]
+def _wrap(angle: Angle) -> Angle:
     """Angles modulo 90 degrees, in (-45, 45]."""
     quarter = math.pi / 2
     return -((-angle + quarter / 2) % quarter - quarter / 2)
@@ -190,6 +198,8 @@ def _floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) 
     smooth = np.convolve(hist, [0.5, 1.0, 0.5], mode="same")
     strong = np.flatnonzero(smooth > _LEVEL_SHARE * smooth.max())
     floor = _level_near(zf, w, bins[strong[0]] + 0.025)
+    if not flat.all() and floor > np.median(z[~flat]):  # no floor was seen: a ceiling lies above the walls
+        return float(np.percentile(surfels.centroid @ rotation[2], 0.5)), floor
     high = strong[bins[strong] > floor + 1.8]
     return floor, (_level_near(zf, w, bins[high[-1]] + 0.025) if len(high) else None)
 
