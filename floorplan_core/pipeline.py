@@ -104,7 +104,8 @@ class FloorPlanner:
         pose = np.asarray(T_world_sensor, dtype=np.float64)
         if pose.shape != (4, 4) or not np.isfinite(pose).all():
             raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
-        world = pts @ pose[:3, :3].T + pose[:3, 3]
+        with np.errstate(invalid="ignore"):  # what is not a number is left out later
+            world = pts @ pose[:3, :3].T + pose[:3, 3]
         self._path.append(pose[None, :3, 3])
         self._integrate(world, np.zeros(len(pts), dtype=np.int32), pose[None, :3, 3])
 
