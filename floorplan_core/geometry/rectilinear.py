@@ -16,9 +16,9 @@ _SAME = 1e-6  # m, coordinates closer than this are equal
 
 def corners(ring: Float) -> Float:
     """(N, 2) corners of a closed rectilinear ring: no repeated, no collinear vertices; not closed."""
-    points = ring[:-1] if np.allclose(ring[0], ring[-1]) else ring
+    points = ring[:-1] if np.abs(ring[0] - ring[-1]).max() < _SAME else ring
     while True:
-        before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
+        before, after = np.concatenate([points[-1:], points[:-1]]), np.concatenate([points[1:], points[:1]])
         still = np.abs(points - before) < _SAME
         straight = still & (np.abs(after - points) < _SAME)
         # Repeated points go first: beside its copy a corner would look like a point of a side.

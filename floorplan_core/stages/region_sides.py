@@ -1,0 +1,102 @@
+"""The sides of a region: where they belong by the surfaces seen along them, and how much of each was seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides
+from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, RegionSide
+
+Float = NDArray[np.float64]
+
+
+class WallSurfaces:
+    """The segments by facing, to look up what was seen along a side."""
+
+    REACH = 0.22  # m between a side and a surface that can be its own
+
+    def __init__(self, planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) -> None:
+        self._table = {}
+        plane_of = {p.id: p for p in planes}
+        for facing in Facing:
+            mine = [s for s in segments if s.facing == facing and s.plane]
+            data = np.array([[s.offset, s.start, s.end, s.area] for s in mine]).reshape(-1, 4)
+            self._table[facing] = (data, [s.plane for s in mine])
+        self._planes = plane_of
+
+    @staticmethod
+    def facing(a: Float, b: Float) -> Facing:
+        """The facing of the surface along a side of a ring whose inside is at the left."""
+        if abs(a[0] - b[0]) < abs(a[1] - b[1]):
+            return Facing.WEST if b[1] > a[1] else Facing.EAST
+        return Facing.NORTH if b[0] > a[0] else Facing.SOUTH
+
+    def along(self, a: Float, b: Float) -> tuple[Float, list[str]]:
+        """(K, 3) offset, start and end (clipped to the side) of the surfaces seen along it, and their planes."""
+        data, planes = self._table[self.facing(a, b)]
+        across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
+        low, high = sorted((a[1 - across], b[1 - across]))
+        start, end = np.maximum(data[:, 1], low), np.minimum(data[:, 2], high)
+        near = (np.abs(data[:, 0] - a[across]) < self.REACH) & (end > start)
+        k = np.flatnonzero(near)
+        return np.column_stack([data[k, 0], start[k], end[k]]), [planes[i] for i in k]
+
+    def target(self, a: Float, b: Float) -> float:
+        """Where a side belongs: the median of the surfaces seen along it, by length; else where it is."""
+        across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
+        seen, _ = self.along(a, b)
+        length = seen[:, 2] - seen[:, 1]
+        if length.sum() < min(0.3, 0.3 * abs(a[1 - across] - b[1 - across])):
+            return float(a[across])
+        order = np.argsort(seen[:, 0], kind="stable")
+        middle = np.searchsorted(np.cumsum(length[order]), 0.5 * length.sum())
+        near = np.abs(seen[:, 0] - seen[order[middle], 0]) < 0.03
+        return float(np.average(seen[near, 0], weights=length[near]))
+
+    def plane(self, names: list[str], lengths: Float) -> str:
+        """The plane that explains most of a side."""
+        total: dict[str, float] = {}
+        for name, length in zip(names, lengths, strict=True):
+            total[name] = total.get(name, 0.0) + float(length)
+        return max(total, key=lambda n: (total[n], n)) if total else ""
+
+    def fit(self, polygon: Any) -> Any:
+        """The polygon with every side moved to the surfaces seen along it."""
+        return map_polygon(polygon, lambda ring: move_sides(ring, self.target))
+
+
+def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[RegionSide, ...]:
+    """The sides of all rings, the inside at their left, with the share of each that was seen."""
+    rings = ((polygon.exterior, False), *((ring, True) for ring in polygon.interiors))
+    return tuple(
+        _side(a, b, walls, doors, hole) for ring, hole in rings for a, b in _edges(np.asarray(ring.coords))
+    )
+
+
+def _edges(ring: Float) -> list[tuple[Float, Float]]:
+    points = corners(ring)
+    return [(points[k], points[(k + 1) % len(points)]) for k in range(len(points))]
+
+
+def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: bool) -> RegionSide:
+    """A side with the share of its length along which wall, or a door in it, was seen."""
+    across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
+    low, high = sorted((float(a[1 - across]), float(b[1 - across])))
+    seen, names = walls.along(a, b)
+    spans = [(s, e) for _, s, e in seen]
+    for door in doors:
+        if door.axis == across and abs(door.offset - a[across]) < door.thickness / 2 + walls.REACH:
+            spans.append((door.start, door.end))
+    covered, at = 0.0, low
+    for s, e in sorted(spans):
+        s, e = max(s, at), min(e, high)
+        if e > s:
+            covered += e - s
+            at = e
+    plane = walls.plane(names, seen[:, 2] - seen[:, 1])
+    start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
+    return RegionSide(start, end, plane, round(min(1.0, covered / max(high - low, 1e-9)), 4), hole)
