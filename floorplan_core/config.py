@@ -212,6 +212,45 @@ class LabelsConfig(Section):
     )
 
 
+class MapsConfig(Section):
+    """Occupancy grid maps: what parts two rooms on a map without heights."""
+
+    max_door: float = setting(1.6, "m", "Widest aperture that is taken for a door.", gt=0.3, le=4)
+    door_opening: float = setting(
+        0.75, "", "Largest ratio of a door's width to the free width beyond, on both sides.", gt=0, le=1
+    )
+    door_wall: float = setting(
+        0.3, "", "Least share of wall in the line of a door, the door included.", ge=0, le=1
+    )
+    max_passage: float = setting(4.2, "m", "Widest gap in a wall that still parts two rooms.", gt=0.3, le=10)
+    passage_opening: float = setting(0.8, "", "The ratio of widths for a passage.", gt=0, le=1)
+    passage_wall: float = setting(0.5, "", "The share of wall for a passage.", ge=0, le=1)
+    max_mouth: float = setting(
+        3.0, "m", "A corridor up to this wide ends where it opens into a hall.", gt=0.3, le=10
+    )
+    mouth_opening: float = setting(
+        0.55, "", "Largest ratio of half a corridor's width to the hall's inscribed radius.", gt=0, le=1
+    )
+    min_width: float = setting(0.3, "m", "Narrower gaps are holes in the data.", gt=0, le=2)
+    leg_size: float = setting(
+        0.5, "m", "Smaller isolated objects are furniture, whatever their shape.", ge=0, le=3
+    )
+    furniture_size: float = setting(
+        1.6, "m", "Compact isolated objects up to this size are furniture or columns.", ge=0, le=5
+    )
+    furniture_ratio: float = setting(
+        2.2, "", "Isolated objects longer than this times their width are pieces of wall.", ge=1, le=20
+    )
+    min_space: float = setting(0.8, "m2", "Smaller enclosed spaces are dropped.", ge=0, le=100)
+    agreement: float = setting(
+        0.9,
+        "",
+        "Least share of a space that its rectangles must explain; else its outline is drawn as it is.",
+        ge=0,
+        le=1,
+    )
+
+
 class Config(Section):
     """All settings. ``Config()`` holds the defaults; ``Config.load`` reads YAML; ``with_values`` overrides by name."""
 
@@ -226,6 +265,7 @@ class Config(Section):
     cover: CoverConfig = CoverConfig()
     regions: RegionsConfig = RegionsConfig()
     labels: LabelsConfig = LabelsConfig()
+    maps: MapsConfig = MapsConfig()
 
     @classmethod
     def load(cls, path: Path) -> Config:

@@ -10,6 +10,7 @@ Cost: linear in the boundary cells.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -161,18 +162,23 @@ def _summary(
     )  # fmt: skip
 
 
-def wall_segments(boundary: Boundary, grid: OccupancyGrid, config: Config) -> tuple[LayoutSegment, ...]:
-    """The walls among the pieces, long enough to be surfaces."""
-    rows = np.flatnonzero((boundary.wall >= _MOSTLY) & (boundary.length >= config.segments.min_length))
-    return tuple(
-        LayoutSegment(
-            id=f"s{n + 1}", facing=Facing(int(boundary.facing[k])), offset=float(boundary.offset[k]),
-            start=float(boundary.start[k]), end=float(boundary.end[k]), z_min=0.0, z_max=0.0,
-            area=float(boundary.length[k] * boundary.wall[k]), points=round(boundary.length[k] / grid.cell),
-            residual=float(max(boundary.spread[k], grid.cell / 2)), sigma=grid.cell / float(np.sqrt(12.0)),
-            evidence=("straight boundary of free space",),
-        )
-        for n, k in enumerate(rows)
+def wall_segments(
+    boundary: Boundary, grid: OccupancyGrid, config: Config
+) -> tuple[tuple[LayoutSegment, ...], Int]:
+    """The walls among the pieces that are long enough to be surfaces, and the row of each piece."""
+    long = boundary.length >= config.segments.min_length
+    rows = np.flatnonzero((boundary.wall >= _MOSTLY) & long)
+    return tuple(_segment(f"s{n + 1}", boundary, int(k), grid) for n, k in enumerate(rows)), rows
+
+
+def _segment(name: str, boundary: Boundary, k: int, grid: OccupancyGrid) -> LayoutSegment:
+    length = float(boundary.length[k])
+    return LayoutSegment(
+        id=name, facing=Facing(int(boundary.facing[k])), offset=float(boundary.offset[k]),
+        start=float(boundary.start[k]), end=float(boundary.end[k]), z_min=0.0, z_max=0.0,
+        area=length * float(boundary.wall[k]), points=round(length / grid.cell),
+        residual=max(float(boundary.spread[k]), grid.cell / 2), sigma=grid.cell / math.sqrt(12.0),
+        evidence=("straight boundary of free space",),
     )  # fmt: skip
 
 

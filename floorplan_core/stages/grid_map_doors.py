@@ -1,0 +1,118 @@
+"""Doors of a map: passages in walls along the axes, measured from jamb to jamb.
+
+In: passages, planes and the floor. Out: doors, each a child of the planes of its wall's faces. A passage in a
+wall at another angle parts spaces like any other, but has no place in a Manhattan plan: it is counted, not drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import DoorsConfig
+from floorplan_core.model import Door, LayoutPlane, OccupancyGrid
+from floorplan_core.stages.grid_map_chords import march
+from floorplan_core.stages.grid_map_passages import MOUTH, Passage
+
+Bool = NDArray[np.bool_]
+
+_SKEW = math.radians(25)  # a chord across a thick wall may lean this much; more is a wall at another angle
+_WIDER = 1.2  # a run along the wall this much longer than the chord is not the opening itself
+_FLANK = 0.25  # m of wall in line that make a jamb
+_NEAR_PLANE = 0.15  # m between a face of the door's wall and the plane that explains it
+_NEAR_RUN = 0.6  # m between the opening and the wall run that it interrupts
+
+
+def grid_doors(
+    passages: Sequence[Passage], planes: Sequence[LayoutPlane], floor: Bool, grid: OccupancyGrid,
+    config: DoorsConfig,
+) -> tuple[tuple[Door, ...], int]:  # fmt: skip
+    """The doors by axis, offset and start, and how many passages lie in walls at other angles."""
+    found = [_door(p, planes, floor, grid, config) for p in passages]
+    doors = sorted((d for d in found if d is not None), key=lambda d: (d.axis, d.offset, d.start))
+    named = tuple(_named(door, k, planes) for k, door in enumerate(doors))
+    return named, len(found) - len(named)
+
+
+def _door(
+    passage: Passage, planes: Sequence[LayoutPlane], floor: Bool, grid: OccupancyGrid, config: DoorsConfig
+) -> Door | None:
+    """One passage as a door; None where it leans too much."""
+    (x0, y0), (x1, y1) = passage.start, passage.end
+    axis = 0 if abs(x1 - x0) < abs(y1 - y0) else 1
+    lean = math.atan2(min(abs(x1 - x0), abs(y1 - y0)), max(abs(x1 - x0), abs(y1 - y0)))
+    if lean > _SKEW:
+        return None
+    cells = floor if axis == 1 else floor.T  # rows now run along the wall
+    u, v = ((x0 + x1) / 2, (y0 + y1) / 2) if axis == 1 else ((y0 + y1) / 2, (x0 + x1) / 2)
+    low, high = sorted((x0, x1) if axis == 1 else (y0, y1))
+    low, high = _jambs(cells, u, v, low, high)
+    near, far = (v, v) if passage.kind == MOUTH else _faces(cells, u, v, high - low, grid.cell, config)
+    o = grid.origin
+    return Door(
+        id="", planes=(), axis=axis, offset=float(o[axis] + ((near + far) / 2 + 0.5) * grid.cell),
+        start=float(o[1 - axis] + low * grid.cell), end=float(o[1 - axis] + high * grid.cell),
+        thickness=float((far - near) * grid.cell), evidence=_evidence(passage), confidence=_confidence(passage),
+        kind="door" if (high - low) * grid.cell <= config.max_width else "opening",
+    )  # fmt: skip
+
+
+def _jambs(cells: Bool, u: float, v: float, low: float, high: float) -> tuple[float, float]:
+    """Edges of the opening along the wall, cells; the chord's own ends where the run through its middle is longer."""
+    most = _WIDER * (high - low) + 2
+    left, right = (march(cells, round(u), round(v), s, 0.0, most) for s in (-1.0, 1.0))
+    start, end = round(u) - math.ceil(left - 0.5), round(u) + math.ceil(right - 0.5)
+    if end - start > most:
+        return low, high + 1.0
+    return float(start + 1), float(end)
+
+
+def _faces(
+    cells: Bool, u: float, v: float, width: float, cell: float, config: DoorsConfig
+) -> tuple[float, float]:
+    """Rows of the two faces of the wall: as far as the opening gets no wider."""
+    limit, out = round(config.max_thickness / cell), []
+    for sign in (-1, 1):
+        n = 0
+        while n < limit and _run(cells, u, v + sign * (n + 1), width) <= _WIDER * width:
+            n += 1
+        out.append(v + sign * n)
+    near, far = out
+    return (near, far) if far - near <= limit else (v, v)
+
+
+def _run(cells: Bool, u: float, v: float, width: float) -> float:
+    """Free cells along the wall through u, v; infinite where that is no free cell."""
+    j, i = round(v), round(u)
+    if not (0 <= j < cells.shape[0] and 0 <= i < cells.shape[1] and cells[j, i]):
+        return math.inf
+    return float(march(cells, i, j, 1.0, 0.0, 2 * width) + march(cells, i, j, -1.0, 0.0, 2 * width))
+
+
+def _evidence(passage: Passage) -> tuple[str, ...]:
+    if passage.kind == MOUTH:
+        return ("corridor opens into a hall",)
+    jambs = sum(flank >= _FLANK for flank in passage.flanks)
+    return ("narrow between two spaces", "wall on both sides" if jambs == 2 else "corner")
+
+
+def _confidence(passage: Passage) -> float:
+    """The narrower beside its spaces and the more wall in its line, the surer."""
+    return round(min(1.0, max(0.0, 1.0 - passage.opening) * 0.6 + passage.wall * 0.4 + 0.2), 3)
+
+
+def _named(door: Door, k: int, planes: Sequence[LayoutPlane]) -> Door:
+    """The door with its id and the planes whose wall it interrupts."""
+    from dataclasses import replace
+
+    mine = [
+        p.id
+        for p in planes
+        if p.facing.axis == door.axis
+        and abs(p.offset - door.offset) <= door.thickness / 2 + _NEAR_PLANE
+        and any(s < door.end + _NEAR_RUN and e > door.start - _NEAR_RUN for s, e in p.walls)
+    ]
+    return replace(door, id=f"d{k + 1}", planes=tuple(mine))
