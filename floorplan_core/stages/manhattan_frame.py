@@ -197,11 +197,18 @@ def _floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) 
     hist, _ = np.histogram(zf, bins=bins, weights=w)
     smooth = np.convolve(hist, [0.5, 1.0, 0.5], mode="same")
     strong = np.flatnonzero(smooth > _LEVEL_SHARE * smooth.max())
-    floor = _level_near(zf, w, bins[strong[0]] + 0.025)
+    floor = _level_near(zf, w, bins[_climb(smooth, strong[0], 1)] + 0.025)
     if not flat.all() and floor > np.median(z[~flat]):  # no floor was seen: a ceiling lies above the walls
         return float(np.percentile(surfels.centroid @ rotation[2], 0.5)), floor
     high = strong[bins[strong] > floor + 1.8]
-    return floor, (_level_near(zf, w, bins[high[-1]] + 0.025) if len(high) else None)
+    return floor, (_level_near(zf, w, bins[_climb(smooth, high[-1], -1)] + 0.025) if len(high) else None)
+
+
+def _climb(histogram: Float, k: int, step: int) -> int:
+    """The peak that bin ``k`` is on the slope of: a smoothed level is strong in the bins beside it, too."""
+    while 0 <= k + step < len(histogram) and histogram[k + step] > histogram[k]:
+        k += step
+    return int(k)
 
 
 def _level_near(z: Float, weight: Float, level: float) -> float:
