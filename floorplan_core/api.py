@@ -24,7 +24,7 @@ from floorplan_core.plugins import Exporter, Reader, ReadOptions, RegionClassifi
 from floorplan_core.readers.assemble import assemble
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.foreign import damaged, import_library, moved, spread_sample
-from floorplan_core.readers.ply_header import parse_ply_header
+from floorplan_core.readers.ply_header import PlyHeader, parse_ply_header
 from floorplan_core.readers.records import as_scan_id, join_chunks
 from floorplan_core.readers.source import (
     CHUNK_POINTS,
@@ -61,6 +61,7 @@ __all__ = [
     "Observer",
     "OccupancyGrid",
     "OutputError",
+    "PlyHeader",
     "PointChunk",
     "PointSource",
     "RawChunk",

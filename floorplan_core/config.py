@@ -101,6 +101,13 @@ class PlanesConfig(Section):
         ge=0,
         le=20,
     )
+    recess: float = setting(
+        0.3,
+        "m",
+        "Surfaces at most this deep behind a wall of the same facing are its recesses, not paired.",
+        ge=0,
+        le=1,
+    )
     wall_depth: float = setting(
         0.18,
         "m",

@@ -38,7 +38,7 @@ from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
 from floorplan_core.stages.candidates import enumerate_candidates
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
-from floorplan_core.stages.layout_planes import find_planes
+from floorplan_core.stages.layout_planes import find_planes, recessed
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
@@ -219,7 +219,8 @@ class FloorPlanner:
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
         grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
         walls = blockers(planes, doors)
-        paired = [p for p in planes if p.support >= config.planes.min_support]
+        behind = recessed(planes, config.planes.recess)
+        paired = [p for p in planes if p.support >= config.planes.min_support and p.id not in behind]
         candidates = stage("candidates", lambda: _candidates(paired, walls, grid, config, self.observer))
         cover = stage("cover", lambda: cover_free_space(candidates, grid, config.cover, self.observer))
         planes, cover = stage("cover", lambda: _cover_the_rest(planes, paired, walls, cover, grid, config))

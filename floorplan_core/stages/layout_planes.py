@@ -8,6 +8,7 @@ or hidden between two seen parts. Cost: linear in segments times the length of t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +26,7 @@ Float = NDArray[np.float64]
 
 _LOW_FROM = 0.2  # m, skirting and floor
 _PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
+_RECESSED = 0.8  # share of a plane that must lie behind another wall to be its recess
 _HOLE = 0.35  # m, too narrow to pass
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
@@ -55,6 +57,39 @@ def find_planes(
             "(segments.furniture_height) or is too small; scan higher, or lower that setting."
         )
     return tuple(named[s.id] for s in segments), tuple(planes)
+
+
+def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:
+    """Ids of the planes that lie in a recess of another: window panes, shut leaves, niches in a wall.
+
+    Nearly all that was seen of such a plane is behind wall of the same facing at most ``depth`` metres in front.
+    """
+    out = set()
+    for plane in planes:
+        ahead = [
+            q
+            for q in planes
+            if q.facing == plane.facing and 0.02 < (q.offset - plane.offset) * plane.facing.sign < depth
+        ]
+        runs = np.concatenate([q.walls for q in ahead]) if ahead else np.zeros((0, 2))
+        length = float((plane.observed[:, 1] - plane.observed[:, 0]).sum())
+        stronger = any(q.support > plane.support for q in ahead)
+        if stronger and length > 0 and _covered(plane.observed, runs) > _RECESSED * length:
+            out.add(plane.id)
+    return out
+
+
+def _covered(spans: Float, runs: Float) -> float:
+    """Metres of ``spans`` (K, 2) that lie inside ``runs`` (R, 2), which may overlap each other."""
+    total = 0.0
+    for start, end in spans:
+        at = float(start)
+        for low, high in sorted((float(a), float(b)) for a, b in runs):
+            low, high = max(low, at), min(high, float(end))
+            if high > low:
+                total += high - low
+                at = high
+    return total
 
 
 def _plane(

@@ -13,6 +13,9 @@ from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, Regio
 
 Float = NDArray[np.float64]
 
+_THICKEST = 0.45  # m between two faces that are one wall
+_USUAL = 0.12  # m, thickness of an inner wall where no wall was seen from both sides
+
 
 class WallSurfaces:
     """The segments by facing, to look up what was seen along a side."""
@@ -21,12 +24,11 @@ class WallSurfaces:
 
     def __init__(self, planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) -> None:
         self._table = {}
-        plane_of = {p.id: p for p in planes}
         for facing in Facing:
             mine = [s for s in segments if s.facing == facing and s.plane]
             data = np.array([[s.offset, s.start, s.end, s.area] for s in mine]).reshape(-1, 4)
             self._table[facing] = (data, [s.plane for s in mine])
-        self._planes = plane_of
+        self.thickness = typical_thickness(planes)
 
     @staticmethod
     def facing(a: Float, b: Float) -> Facing:
@@ -51,11 +53,23 @@ class WallSurfaces:
         seen, _ = self.along(a, b)
         length = seen[:, 2] - seen[:, 1]
         if length.sum() < min(0.3, 0.3 * abs(a[1 - across] - b[1 - across])):
-            return float(a[across])
+            return self._behind_other_face(a, b, across)
         order = np.argsort(seen[:, 0], kind="stable")
         middle = np.searchsorted(np.cumsum(length[order]), 0.5 * length.sum())
         near = np.abs(seen[:, 0] - seen[order[middle], 0]) < 0.03
         return float(np.average(seen[near, 0], weights=length[near]))
+
+    def _behind_other_face(self, a: Float, b: Float, across: int) -> float:
+        """Where only the other face of the wall was seen, the side lies one wall's thickness behind it."""
+        facing = self.facing(a, b)
+        data, _ = self._table[facing.opposite]
+        low, high = sorted((a[1 - across], b[1 - across]))
+        length = np.minimum(data[:, 2], high) - np.maximum(data[:, 1], low)
+        ahead = (a[across] - data[:, 0]) * facing.sign  # of the other face, into the region
+        near = (length > 0) & (ahead > -self.REACH) & (ahead < self.thickness)
+        if length[near].sum() < 0.5 * (high - low):
+            return float(a[across])
+        return float(np.average(data[near, 0], weights=length[near])) + facing.sign * self.thickness
 
     def plane(self, names: list[str], lengths: Float) -> str:
         """The plane that explains most of a side."""
@@ -67,6 +81,25 @@ class WallSurfaces:
     def fit(self, polygon: Any) -> Any:
         """The polygon with every side moved to the surfaces seen along it."""
         return map_polygon(polygon, lambda ring: move_sides(ring, self.target))
+
+
+def typical_thickness(planes: Sequence[LayoutPlane]) -> float:
+    """Metres: the median distance between the two faces of the walls that were seen from both sides."""
+    found = []
+    for west in (p for p in planes if p.facing in (Facing.WEST, Facing.SOUTH)):
+        for east in (p for p in planes if p.facing == west.facing.opposite):
+            gap = east.offset - west.offset
+            if 0.04 < gap < _THICKEST and _overlap(west.observed, east.observed) > 0.5:
+                found.append(gap)
+    return float(np.median(found)) if found else _USUAL
+
+
+def _overlap(a: Float, b: Float) -> float:
+    """Metres that two sets of runs (K, 2) have in common."""
+    if not len(a) or not len(b):
+        return 0.0
+    common = np.minimum(a[:, None, 1], b[None, :, 1]) - np.maximum(a[:, None, 0], b[None, :, 0])
+    return float(np.maximum(common, 0).sum())
 
 
 def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[RegionSide, ...]:
