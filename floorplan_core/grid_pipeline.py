@@ -1,0 +1,226 @@
+"""The order of the stages for an occupancy grid map: the same method, with planes and free space from the grid.
+
+frame       yaw of the map's walls; the map in the Manhattan frame, furniture taken out
+doors       chords that complete the walls part the floor into spaces
+segments    straight boundaries of the spaces
+planes      the fewest offsets that explain them
+candidates, cover, regions    as for a reconstruction, for each space by itself
+labels      rooms and corridors
+
+A space whose rectangles explain less than ``maps.agreement`` of it has walls at other angles: its outline is
+taken from the map instead, and a warning says so.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import Config
+from floorplan_core.errors import NoPlanError
+from floorplan_core.model import (
+    FREE,
+    OCCUPIED,
+    CandidateSet,
+    Door,
+    FloorPlan,
+    LayoutPlane,
+    LayoutSegment,
+    LocalFrame,
+    OccupancyGrid,
+    RectangleCover,
+    Region,
+    WallPoints,
+)
+from floorplan_core.model.grid_map import GridMap
+from floorplan_core.observer import Observer
+from floorplan_core.pipeline import _candidates, _cover_the_rest
+from floorplan_core.plugins import RegionClassifier, find_classifier
+from floorplan_core.stages.grid_map import MapFloor, find_floor
+from floorplan_core.stages.grid_map_doors import grid_doors
+from floorplan_core.stages.grid_map_outlines import outline, outline_region
+from floorplan_core.stages.grid_map_passages import find_passages
+from floorplan_core.stages.grid_map_spaces import (
+    SpaceProblem,
+    disjoint,
+    explained,
+    in_reading_order,
+    join_candidates,
+    join_covers,
+    space_problems,
+)
+from floorplan_core.stages.grid_map_walls import Boundary, find_boundary, wall_planes, wall_segments
+from floorplan_core.stages.labels import PaperClassifier, label_regions
+from floorplan_core.stages.regions import build_regions, connect_doors
+from floorplan_core.stages.set_cover import cover as cover_free_space
+
+T = TypeVar("T")
+Bool = NDArray[np.bool_]
+
+_WORTH_SAYING = 1.0  # m2 of free space in no region
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """One space after candidates and cover."""
+
+    problem: SpaceProblem
+    candidates: CandidateSet
+    cover: RectangleCover
+    planes: tuple[LayoutPlane, ...]  # with the speculated ones that were used
+
+
+def plan_grid_map(
+    grid_map: GridMap, config: Config | None = None, observer: Observer | None = None
+) -> FloorPlan:
+    """The floor plan of a grid map; raises :class:`NoPlanError` where there is none."""
+    config, observer = config or Config(), observer or Observer()
+    seconds: dict[str, float] = {}
+
+    def stage(name: str, work: Callable[[], T]) -> T:
+        observer.check_cancelled()
+        observer.stage_started(name)
+        began = time.perf_counter()
+        result = work()
+        took = time.perf_counter() - began
+        seconds[name] = seconds.get(name, 0.0) + took
+        observer.stage_finished(name, took, result)
+        return result
+
+    ground = stage("frame", lambda: find_floor(grid_map, config))
+    passages, spaces = stage("doors", lambda: find_passages(ground.floor, ground.grid.cell, config.maps))
+    grid = replace(ground.grid, universe=(spaces > 0) & (ground.grid.states == FREE))
+    boundary = stage("segments", lambda: find_boundary(spaces, ground.floor, grid))
+    segments, rows = stage("segments", lambda: wall_segments(boundary, grid, config))
+    segments, planes = stage("planes", lambda: wall_planes(segments, grid.cell, config))
+    doors, askew = stage("doors", lambda: grid_doors(passages, planes, ground.floor, grid, config.doors))
+    problems = stage(
+        "candidates",
+        lambda: space_problems(spaces, ground.floor, grid, boundary, segments, rows, planes, config),
+    )
+    solved = stage("cover", lambda: [_solve(p, config, observer) for p in problems])
+    sets = [s.candidates for s in solved]
+    cover, first = join_covers([s.cover for s in solved], sets, problems, grid.states.shape)
+    regions, drawn = stage("regions", lambda: _regions(solved, first, doors, grid, config))
+    regions, doors = stage("regions", lambda: connect_doors(regions, doors))
+    if not regions:
+        raise NoPlanError(
+            f"No region came out of {grid_map.name}: no enclosed free space is larger than "
+            f"{config.regions.min_area:g} m2; check the resolution and the thresholds of the map."
+        )
+    regions = stage("labels", lambda: label_regions(regions, _classifier(config), config))
+    warnings = _warnings(ground, regions, drawn, askew, cover, config)
+    for text in warnings:
+        observer.warning(text)
+    return FloorPlan(
+        ground.frame, LocalFrame(), segments, _all_planes(planes, solved), doors, grid, join_candidates(sets), cover,
+        regions, _wall_points(boundary, grid), np.zeros((0, 2)), grid_map.name,
+        int(np.count_nonzero(grid_map.states)), config, warnings, seconds,
+    )  # fmt: skip
+
+
+def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved:
+    """Candidates and cover of one space; what no candidate covers is closed at its frontier."""
+    observer.check_cancelled()
+    planes = list(problem.planes)
+    candidates = _candidates(planes, problem.walls, problem.grid, config, Observer())
+    cover = cover_free_space(candidates, problem.grid, config.cover)
+    used, cover = _cover_the_rest(problem.planes, planes, problem.walls, cover, problem.grid, config)
+    named = tuple(replace(p, id=f"{p.id}.{problem.number}") if p.id.startswith("q") else p for p in used)
+    return _Solved(problem, candidates, cover, named)
+
+
+def _regions(
+    solved: list[_Solved], first: NDArray[np.int64], doors: tuple[Door, ...], grid: OccupancyGrid, config: Config
+) -> tuple[tuple[Region, ...], int]:  # fmt: skip
+    """One region for each space, by its rectangles or by its outline, and how many are outlines."""
+    found: list[Region] = []
+    drawn = 0
+    for space, row in zip(solved, first, strict=False):
+        region = _by_rectangles(space, doors, config)
+        if region is None:
+            region = _by_outline(space)
+            drawn += region is not None
+        if region is not None and region.area >= config.regions.min_area:
+            own = region.rectangles if region.rectangles is not None else np.zeros(0, dtype=np.int64)
+            found.append(replace(region, rectangles=own + row))
+
+    def rebuild(polygon: Any, region: Region) -> Region:
+        return outline_region(polygon, grid, region.rectangles)
+
+    return in_reading_order(disjoint(found, rebuild)), drawn
+
+
+def _by_rectangles(space: _Solved, doors: tuple[Door, ...], config: Config) -> Region | None:
+    """The region of the chosen rectangles, where it explains the space."""
+    problem = space.problem
+    if len(space.cover) == 0:
+        return None
+    made = build_regions(space.cover, space.planes, problem.segments, doors, problem.grid, config.regions)
+    best = max(made, key=lambda r: r.free_cells, default=None)
+    return best if best is not None and explained(best, problem) >= config.maps.agreement else None
+
+
+def _by_outline(space: _Solved) -> Region | None:
+    polygon = outline(space.problem.mask, space.problem.grid)
+    if polygon is None:
+        return None
+    return outline_region(polygon, space.problem.grid, np.arange(len(space.cover), dtype=np.int64))
+
+
+def _all_planes(planes: tuple[LayoutPlane, ...], solved: list[_Solved]) -> tuple[LayoutPlane, ...]:
+    """The observed planes, then the speculated ones that the spaces needed."""
+    return (*planes, *(p for s in solved for p in s.planes if p.speculated))
+
+
+def _classifier(config: Config) -> RegionClassifier:
+    name = config.labels.classifier
+    return PaperClassifier() if name == PaperClassifier.name else find_classifier(name)
+
+
+def _warnings(
+    ground: MapFloor, regions: tuple[Region, ...], drawn: int, askew: int, cover: RectangleCover, config: Config
+) -> tuple[str, ...]:  # fmt: skip
+    """What the user should know: walls at other angles, and free space that is in no region."""
+    out = []
+    if ground.frame.support < config.frame.min_support:
+        out.append(
+            f"Only {ground.frame.support:.0%} of the walls lie along two perpendicular directions; "
+            "this is hardly a Manhattan world."
+        )
+    if drawn:
+        out.append(
+            f"{drawn} of {len(regions)} regions have walls at other angles; their outline is the map's own, "
+            "not made of layout planes."
+        )
+    if askew:
+        out.append(f"{askew} passages in walls at other angles part regions but are not drawn as doors.")
+    return tuple(out)
+
+
+def _wall_points(boundary: Boundary, grid: OccupancyGrid) -> WallPoints:
+    """The occupied cells beside free ones, with the facing of the boundary piece that they belong to."""
+    import cv2
+
+    free = (grid.states == FREE).astype(np.uint8)
+    near = cv2.dilate(free, np.ones((3, 3), dtype=np.uint8)).astype(bool)
+    iy, ix = np.nonzero(near & (grid.states == OCCUPIED))
+    xy = grid.origin + grid.cell * (np.column_stack([ix, iy]) + 0.5)
+    facing = np.full(grid.states.shape, -1, dtype=np.int8)
+    for k in np.flatnonzero(boundary.wall > boundary.open):
+        _mark(facing, boundary, int(k), grid)
+    return WallPoints(xy.astype(np.float32), np.zeros(len(xy), dtype=np.float32), facing[iy, ix])
+
+
+def _mark(facing: NDArray[np.int8], boundary: Boundary, k: int, grid: OccupancyGrid) -> None:
+    """Note the facing of one piece in the cells that lie behind it."""
+    axis, sign = divmod(int(boundary.facing[k]), 2)
+    low, high = ((boundary.start[k], boundary.end[k]) - grid.origin[1 - axis]) / grid.cell
+    at = round((boundary.offset[k] - grid.origin[axis]) / grid.cell) - (1 if sign == 0 else 0)
+    along, across = slice(round(low), round(high)), slice(max(at - 1, 0), at + 2)
+    facing[(along, across) if axis == 0 else (across, along)] = boundary.facing[k]
