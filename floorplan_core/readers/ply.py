@@ -33,7 +33,7 @@ class PlyReader:
     description = "Polygon file format: ASCII or binary, optional scan_id"
 
     def sniff(self, path: Path, head: bytes) -> float:
-        """0.9 where the file begins with the word ``ply`` on a line of its own: readers of meshes may know more."""
+        """0.9 where the file begins with the line ``ply``: a reader of meshes may be surer."""
         return 0.9 if head[:4] in (b"ply\n", b"ply\r") else 0.0
 
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
