@@ -32,6 +32,7 @@ from floorplan_core.model.evidence import Evidence
 Float = NDArray[np.float64]
 
 _SKIRTING = 0.2  # m above the floor below which nothing counts as wall
+_SKIN = 1  # cells before a surface that its own noise may fill
 _HIST = 60  # bins of 2.5 mm on each side of a segment, for its robust offset
 _HIST_BIN = 0.0025
 ALL_LEVELS = np.uint64((1 << 64) - 1)
@@ -162,8 +163,13 @@ def wall_band(evidence: Evidence) -> np.uint64:
     return height_mask(_SKIRTING, top)
 
 
-def _faces_free_space(evidence: Evidence, facing: Facing, u: Float, v: Float) -> NDArray[np.bool_]:
-    """(N,) True where the space in front of a surfel is open: free space is seen there, or at least not behind."""
+def _faces_free_space(
+    evidence: Evidence, facing: Facing, u: Float, v: Float, skin: int = 0
+) -> NDArray[np.bool_]:
+    """(N,) True where the space in front of a surfel is open: free space is seen there, or at least not behind.
+
+    ``skin`` cells just in front may hold the surface's own noise.
+    """
     a, b = facing.axis, 1 - facing.axis
     band = height_mask(0.5, 1.9)
     tall = count_bits(evidence.hits & wall_band(evidence)) >= 4
@@ -171,14 +177,14 @@ def _faces_free_space(evidence: Evidence, facing: Facing, u: Float, v: Float) ->
     grid = (lambda m: m) if a == 0 else (lambda m: m.T)
     return np.asarray(
         _first_in_front(
-            u, v, evidence.origin[a], evidence.origin[b], evidence.fine, facing.sign,
+            u, v, evidence.origin[a], evidence.origin[b], evidence.fine, facing.sign, skin,
             np.ascontiguousarray(grid(tall)), np.ascontiguousarray(grid(free)),
         )
     )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
-def _first_in_front(u, v, ou, ov, cell, sign, tall, free):  # type: ignore[no-untyped-def]
+def _first_in_front(u, v, ou, ov, cell, sign, skin, tall, free):  # type: ignore[no-untyped-def]
     out = np.zeros(len(u), dtype=np.bool_)
     nv, nu = tall.shape
     for i in range(len(u)):
@@ -189,7 +195,7 @@ def _first_in_front(u, v, ou, ov, cell, sign, tall, free):  # type: ignore[no-un
             open_[side] = True
             for step in range(1, 9):
                 ju = iu + (sign * step if side == 0 else -sign * step)
-                if ju < 0 or ju >= nu or iv < 0 or iv >= nv or tall[iv, ju]:
+                if ju < 0 or ju >= nu or iv < 0 or iv >= nv or (step > skin and tall[iv, ju]):
                     open_[side] = seen[side]
                     break
                 if free[iv, ju]:
@@ -222,7 +228,10 @@ def _fit_histograms(
     mean = (
         np.bincount(surfaces.node[:, 0], weights=weight * surfaces.offset, minlength=surfaces.chains) / total
     )
-    toward = evidence.view[:, a] * facing.sign if evidence.viewpoints else np.ones(len(u))
+    if evidence.viewpoints:
+        toward = evidence.view[:, a] * facing.sign
+    else:  # the other face of a thin wall is within reach: only what has free space before it counts
+        toward = _faces_free_space(evidence, facing, u, v, _SKIN).astype(np.float64)
     band = wall_band(evidence)
     low = _SKIRTING
     high = LEVEL * int(band).bit_length()
