@@ -150,7 +150,7 @@ class DoorsConfig(Section):
         4.0, "m", "Widest opening below a lintel that still separates two regions.", gt=0.5, le=10
     )
     max_beamless: float = setting(
-        2.0,
+        1.9,
         "m",
         "A wider lintel between two walls that go on beyond it is a beam, and separates nothing.",
         gt=0.5,
@@ -224,19 +224,19 @@ class MapsConfig(Section):
 
     max_door: float = setting(1.6, "m", "Widest aperture that is taken for a door.", gt=0.3, le=4)
     door_opening: float = setting(
-        0.75, "", "Largest ratio of a door's width to the free width beyond, on both sides.", gt=0, le=1
+        0.7, "", "Largest ratio of a door's width to the free width beyond, on both sides.", gt=0, le=1
     )
     door_wall: float = setting(
         0.3, "", "Least share of wall in the line of a door, the door included.", ge=0, le=1
     )
     max_passage: float = setting(4.2, "m", "Widest gap in a wall that still parts two rooms.", gt=0.3, le=10)
     passage_opening: float = setting(0.8, "", "The ratio of widths for a passage.", gt=0, le=1)
-    passage_wall: float = setting(0.5, "", "The share of wall for a passage.", ge=0, le=1)
+    passage_wall: float = setting(0.4, "", "The share of wall for a passage.", ge=0, le=1)
     max_mouth: float = setting(
         3.0, "m", "A corridor up to this wide ends where it opens into a hall.", gt=0.3, le=10
     )
     mouth_opening: float = setting(
-        0.55, "", "Largest ratio of half a corridor's width to the hall's inscribed radius.", gt=0, le=1
+        0.45, "", "Largest ratio of half a corridor's width to the hall's inscribed radius.", gt=0, le=1
     )
     min_width: float = setting(0.3, "m", "Narrower gaps are holes in the data.", gt=0, le=2)
     leg_size: float = setting(
@@ -252,9 +252,12 @@ class MapsConfig(Section):
     agreement: float = setting(
         0.9,
         "",
-        "Least share of a space that its rectangles must explain; else its outline is drawn as it is.",
+        "Least share of a space that its rectangles must explain; else the map's outline is taken.",
         ge=0,
         le=1,
+    )
+    max_askew: float = setting(
+        0.05, "", "Share of walls at other angles from which a space gets the map's outline.", ge=0, le=1
     )
 
 

@@ -43,7 +43,7 @@ from floorplan_core.pipeline import _candidates, _cover_the_rest
 from floorplan_core.plugins import RegionClassifier, find_classifier
 from floorplan_core.stages.grid_map import MapFloor, find_floor
 from floorplan_core.stages.grid_map_doors import grid_doors
-from floorplan_core.stages.grid_map_outlines import outline, outline_region
+from floorplan_core.stages.grid_map_outlines import askew_share, outline, outline_region
 from floorplan_core.stages.grid_map_passages import find_passages
 from floorplan_core.stages.grid_map_spaces import (
     SpaceProblem,
@@ -62,7 +62,7 @@ from floorplan_core.stages.set_cover import cover as cover_free_space
 T = TypeVar("T")
 Bool = NDArray[np.bool_]
 
-_WORTH_SAYING = 1.0  # m2 of free space in no region
+_LEFT = 0.03  # of a space: less that no rectangle covers are niches and recesses of doors
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,8 @@ class _Solved:
     candidates: CandidateSet
     cover: RectangleCover
     planes: tuple[LayoutPlane, ...]  # with the speculated ones that were used
+    outline: Any  # shapely polygon around its cells; None where nothing is left of it
+    askew: bool  # its walls run at other angles: rectangles have nothing to say
 
 
 def plan_grid_map(
@@ -114,7 +116,7 @@ def plan_grid_map(
             f"{config.regions.min_area:g} m2; check the resolution and the thresholds of the map."
         )
     regions = stage("labels", lambda: label_regions(regions, _classifier(config), config))
-    warnings = _warnings(ground, regions, drawn, askew, cover, config)
+    warnings = _warnings(ground, regions, drawn, askew, config)
     for text in warnings:
         observer.warning(text)
     return FloorPlan(
@@ -127,12 +129,17 @@ def plan_grid_map(
 def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved:
     """Candidates and cover of one space; what no candidate covers is closed at its frontier."""
     observer.check_cancelled()
-    planes = list(problem.planes)
+    around = outline(problem.mask, problem.grid)
+    askew = around is not None and askew_share(around) > config.maps.max_askew
+    planes = [] if askew else list(problem.planes)
     candidates = _candidates(planes, problem.walls, problem.grid, config, Observer())
     cover = cover_free_space(candidates, problem.grid, config.cover)
-    used, cover = _cover_the_rest(problem.planes, planes, problem.walls, cover, problem.grid, config)
+    used: tuple[LayoutPlane, ...] = tuple(planes)
+    left = np.count_nonzero(cover.uncovered)
+    if not askew and left > _LEFT * np.count_nonzero(problem.grid.universe):
+        used, cover = _cover_the_rest(used, planes, problem.walls, cover, problem.grid, config)
     named = tuple(replace(p, id=f"{p.id}.{problem.number}") if p.id.startswith("q") else p for p in used)
-    return _Solved(problem, candidates, cover, named)
+    return _Solved(problem, candidates, cover, named, around, askew)
 
 
 def _regions(
@@ -159,7 +166,7 @@ def _regions(
 def _by_rectangles(space: _Solved, doors: tuple[Door, ...], config: Config) -> Region | None:
     """The region of the chosen rectangles, where it explains the space."""
     problem = space.problem
-    if len(space.cover) == 0:
+    if space.askew or len(space.cover) == 0:
         return None
     made = build_regions(space.cover, space.planes, problem.segments, doors, problem.grid, config.regions)
     best = max(made, key=lambda r: r.free_cells, default=None)
@@ -167,10 +174,10 @@ def _by_rectangles(space: _Solved, doors: tuple[Door, ...], config: Config) -> R
 
 
 def _by_outline(space: _Solved) -> Region | None:
-    polygon = outline(space.problem.mask, space.problem.grid)
-    if polygon is None:
+    if space.outline is None:
         return None
-    return outline_region(polygon, space.problem.grid, np.arange(len(space.cover), dtype=np.int64))
+    rows = np.arange(len(space.cover), dtype=np.int64)
+    return outline_region(space.outline, space.problem.grid, rows)
 
 
 def _all_planes(planes: tuple[LayoutPlane, ...], solved: list[_Solved]) -> tuple[LayoutPlane, ...]:
@@ -184,7 +191,7 @@ def _classifier(config: Config) -> RegionClassifier:
 
 
 def _warnings(
-    ground: MapFloor, regions: tuple[Region, ...], drawn: int, askew: int, cover: RectangleCover, config: Config
+    ground: MapFloor, regions: tuple[Region, ...], drawn: int, askew: int, config: Config
 ) -> tuple[str, ...]:  # fmt: skip
     """What the user should know: walls at other angles, and free space that is in no region."""
     out = []

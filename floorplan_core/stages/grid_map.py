@@ -57,6 +57,8 @@ def find_floor(grid_map: GridMap, config: Config) -> MapFloor:
             f"{grid_map.resolution:g} m); check the resolution, and negate and free_thresh of the map's YAML."
         )
     yaw, support, length = _yaw(free, grid_map.resolution, config.frame)
+    if support < config.frame.min_support and config.frame.yaw_deg is None:
+        yaw = 0.0  # no two directions to speak of: the map stays as it was drawn
     frame = ManhattanFrame(
         frames._rotation_about_z(-grid_map.yaw - yaw), grid_map.yaw + yaw, 0.0, support, length, 0.0, None
     )

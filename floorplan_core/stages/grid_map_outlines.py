@@ -6,6 +6,7 @@ not what layout planes explain, and its sides name no plane.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -23,10 +24,14 @@ _SIMPLE = 1.5  # cells that a simplified outline may deviate
 _WHISKER = 3  # cells: parts of a space narrower than this are noise
 _LEAST_HOLE = 0.25  # m2: smaller holes are no walls
 _WALL_REACH = 3  # cells beyond a side in which its wall is looked for
+_LONG = 0.5  # m: the direction of shorter sides says nothing
+_ASKEW = math.radians(12)  # off the axes by more is a wall at another angle
+_STRAIGHTEN = math.radians(6)  # sides nearer to an axis lie along it
+_MOVE = 0.15  # m that a corner may move when its sides are straightened
 
 
 def outline(space: Bool, grid: OccupancyGrid) -> Any:
-    """Shapely polygon around the cells of a space; None where nothing is left of it."""
+    """Shapely polygon around the cells of a space, its sides along the axes where they nearly are; None if empty."""
     import cv2
 
     kernel = np.ones((_WHISKER, _WHISKER), dtype=np.uint8)
@@ -34,11 +39,40 @@ def outline(space: Bool, grid: OccupancyGrid) -> Any:
     parts = polygons_of(cells_to_polygon(opened, grid.origin, grid.cell))
     if not parts:
         return None
-    ring = shapely.Polygon(
-        parts[0].exterior, [h for h in parts[0].interiors if shapely.Polygon(h).area >= _LEAST_HOLE]
-    )
-    simple = polygons_of(shapely.make_valid(ring.simplify(_SIMPLE * grid.cell)))
+    holes = [h for h in parts[0].interiors if shapely.Polygon(h).area >= _LEAST_HOLE]
+    plain = shapely.Polygon(parts[0].exterior, holes).simplify(_SIMPLE * grid.cell)
+    straight = shapely.Polygon(_straighten(plain.exterior), [_straighten(h) for h in plain.interiors])
+    simple = polygons_of(straight if straight.is_valid else shapely.make_valid(plain))
     return simple[0] if simple else None
+
+
+def askew_share(polygon: Any) -> float:
+    """0 to 1: the share of an outline's length that runs at another angle than the axes."""
+    edges = np.concatenate(
+        [np.diff(np.asarray(r.coords), axis=0) for r in (polygon.exterior, *polygon.interiors)]
+    )
+    length = np.hypot(edges[:, 0], edges[:, 1])
+    askew = (_off_axis(edges) > _ASKEW) & (length >= _LONG)
+    return float(length[askew].sum() / max(length.sum(), 1e-9))
+
+
+def _off_axis(edges: Float) -> Float:
+    """(N,) radians between each edge and the nearer axis."""
+    return np.asarray(np.arctan2(np.abs(edges).min(axis=1), np.abs(edges).max(axis=1)))
+
+
+def _straighten(ring: Any) -> Float:
+    """(N, 2) corners of a ring; the two ends of every long side near an axis get the same offset, its mean."""
+    points = np.asarray(ring.coords)[:-1].copy()
+    following = np.roll(points, -1, axis=0)
+    edges = following - points
+    near = (_off_axis(edges) < _STRAIGHTEN) & (np.hypot(edges[:, 0], edges[:, 1]) >= _LONG)
+    target = np.full(points.shape, np.nan)  # offset across x and across y that each corner should have
+    for k in np.flatnonzero(near):
+        across = 0 if abs(edges[k, 0]) < abs(edges[k, 1]) else 1
+        target[[k, (k + 1) % len(points)], across] = (points[k, across] + following[k, across]) / 2
+    moved = np.where(np.isnan(target), points, target)
+    return np.where(np.abs(moved - points) <= _MOVE, moved, points)
 
 
 def outline_region(polygon: Any, grid: OccupancyGrid, rows: NDArray[np.int64]) -> Region:

@@ -36,7 +36,7 @@ Int = NDArray[np.int64]
 Bool = NDArray[np.bool_]
 Labels = NDArray[np.int32]
 
-_MARGIN = 1.0  # m of map around a space
+_MARGIN = 0.5  # m of map around a space
 _INSIDE = 0.15  # m off its sides, a region must not hold walls or other spaces
 
 
