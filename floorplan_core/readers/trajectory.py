@@ -1,4 +1,7 @@
-"""Trajectories in TUM form: ``timestamp tx ty tz qx qy qz qw``, one pose a line, ``#`` comments."""
+"""Trajectories in TUM form: ``timestamp tx ty tz qx qy qz qw``, one pose a line, ``#`` comments.
+
+KITTI and EuRoC forms are told by their content: :mod:`floorplan_core.readers.trajectory_forms`.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from numpy.typing import NDArray
 from floorplan_core.errors import InputError
 from floorplan_core.model import Trajectory
 from floorplan_core.observer import Observer
+from floorplan_core.readers.trajectory_forms import form_of, read_form
 
 Float = NDArray[np.float64]
 
@@ -20,13 +24,16 @@ MIN_QUATERNION = 1e-6  # a shorter quaternion has no direction
 
 
 def read_trajectory(path: Path, observer: Observer | None = None) -> Trajectory:
-    """Poses of a TUM file, in the file's own coordinates.
+    """Poses of a TUM, KITTI or EuRoC file, in the file's own coordinates.
 
     Quaternions are normalised. Raises :class:`InputError` with the line number for anything that is not a
     pose; stamps that go back are reported through ``observer`` (the rows keep their order, because scan
     ids count rows) and held at the latest stamp before them.
     """
-    rows = _rows(path)
+    text = _text(path)
+    if (form := form_of(text)) != "tum":
+        return read_form(path.name, text, form)
+    rows = _rows(path, text)
     stamps = rows[:, 0]
     late = np.flatnonzero(np.diff(stamps) < 0)
     if len(late) and observer is not None:
@@ -38,12 +45,15 @@ def read_trajectory(path: Path, observer: Observer | None = None) -> Trajectory:
 
 
 def looks_like_trajectory(path: Path) -> bool:
-    """True where the first line that is no comment holds eight numbers."""
+    """True where the first line that is no comment holds eight numbers, or a pose of another form."""
     try:
         with path.open("rb") as handle:
-            lines = handle.read(4096).decode("utf-8", "replace").splitlines()
+            head = handle.read(4096).decode("utf-8", "replace")
     except OSError:
         return False
+    lines = head.splitlines()
+    if form_of(head) != "tum":
+        return True
     words = [w for w in map(_words, lines) if w]
     return any(_is_pose(w) for w in words[:2])
 
@@ -59,16 +69,20 @@ def rotation_from_quaternion(q: Float) -> Float:
     return np.moveaxis(np.array(rows), -1, 0)
 
 
-def _rows(path: Path) -> Float:
-    """(M, 8) numbers with unit quaternions."""
+def _text(path: Path) -> str:
+    """The whole file; :class:`InputError` where it is too large, unreadable or no text."""
     try:
         if path.stat().st_size > MAX_BYTES:
             raise InputError(f"{path.name} is too large for a trajectory ({path.stat().st_size:,} bytes).")
-        text = path.read_text(encoding="utf-8-sig")
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise InputError(f"Cannot read the trajectory {path.name}: {error.strerror}.") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path.name} is not a trajectory: it is not text.") from error
+
+
+def _rows(path: Path, text: str) -> Float:
+    """(M, 8) numbers with unit quaternions."""
     at_once = _rows_at_once(text)
     if at_once is not None:
         return at_once

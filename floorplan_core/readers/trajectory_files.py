@@ -7,7 +7,7 @@ from pathlib import Path
 
 from floorplan_core.readers.trajectory import looks_like_trajectory
 
-SUFFIXES = (".tum", ".txt")
+SUFFIXES = (".tum", ".txt", ".csv")
 
 
 def find_trajectory(cloud: Path) -> Path | None:
