@@ -14,6 +14,8 @@ Float = NDArray[np.float64]
 
 _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it must meet
 _ON = 0.5  # m that a crossing wall must go on beyond a beam on both sides
+_FLANK, _STANDS = 0.6, 0.25  # m beside an opening in which that much wall must stand
+_PASSED = 1.0  # m of an open stretch through which free space was seen
 _TOUCH = 0.3  # m beyond the end of the other wall
 
 
@@ -39,35 +41,63 @@ def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
     return tuple(out)
 
 
-def remove_beams(planes: Sequence[LayoutPlane], widest_lintel: float) -> tuple[LayoutPlane, ...]:
+def remove_beams(
+    planes: Sequence[LayoutPlane], widest_lintel: float, shallow: float
+) -> tuple[LayoutPlane, ...]:
     """Cut from the wall runs what is a beam under the ceiling: it spans from one crossing wall to another.
 
     A lintel rests on wall that ends beside the opening; a beam rests on walls that go on in front of and behind
-    it. Only gaps wider than ``widest_lintel`` (metres) are judged.
+    it, or on nothing that stands in its own plane. Only gaps wider than ``widest_lintel`` (metres) are judged;
+    below ``shallow`` metres of depth one such end is enough.
     """
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
     out = []
     for plane in planes:
         others = crossing[1 - plane.facing.axis]
         going_on = others[(others[:, 1] < plane.offset - _ON) & (others[:, 2] > plane.offset + _ON), 0]
-        beams = [b for b in _open_spans(plane) if b[1] - b[0] > widest_lintel and _between(b, going_on)]
+        wide = [span for span in _open_spans(plane) if span[1] - span[0] > widest_lintel]
+        beams = [span for span in wide if _is_beam(span, plane, going_on, shallow)]
         out.append(replace(plane, walls=_without(plane.walls, beams)) if beams else plane)
     return tuple(out)
 
 
 def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
-    """Stretches of the plane with nothing below 2 m and free space through."""
+    """Stretches with nothing below 2 m, from where free space was first seen to pass to where it was last."""
     profile = plane.profile
     if profile is None:
         return []
-    empty = np.concatenate([[False], (profile.low < 0.12) & (profile.through > 0.3), [False]])
-    edges = np.flatnonzero(np.diff(empty.astype(np.int8))).reshape(-1, 2)
-    return [(profile.start + a * profile.step, profile.start + b * profile.step) for a, b in edges]
+    empty = np.concatenate([[False], profile.low < 0.12, [False]])
+    spans = []
+    for a, b in np.flatnonzero(np.diff(empty.astype(np.int8))).reshape(-1, 2):
+        passed = a + np.flatnonzero(profile.through[a:b] > 0.3)
+        if len(passed) * profile.step > _PASSED:
+            ends = profile.start + profile.step * np.array([passed[0], passed[-1] + 1])
+            spans.append((float(ends[0]), float(ends[1])))
+    return spans
 
 
-def _between(span: tuple[float, float], crossing: Float) -> bool:
-    """True where a crossing wall stands at both ends of the span."""
-    return all(len(crossing) and np.abs(crossing - end).min() < _TOUCH for end in span)
+def _is_beam(span: tuple[float, float], plane: LayoutPlane, crossing: Float, shallow: float) -> bool:
+    """True where the span rests on crossing walls, or on nothing in its own plane."""
+    ends = sum(bool(len(crossing)) and float(np.abs(crossing - end).min()) < _TOUCH for end in span)
+    return ends == 2 or (ends == 1 and _depth(span, plane) < shallow) or not _flanked(span, plane)
+
+
+def _depth(span: tuple[float, float], plane: LayoutPlane) -> float:
+    """Metres of surface above 2 m along most of a span."""
+    profile = plane.profile
+    assert profile is not None
+    a, b = (round((v - profile.start) / profile.step) for v in span)
+    return float(np.median(profile.high[a:b])) if b > a else 0.0
+
+
+def _flanked(span: tuple[float, float], plane: LayoutPlane) -> bool:
+    """True where wall stands in the plane on both sides of the span."""
+    profile = plane.profile
+    assert profile is not None
+    a, b = (round((v - profile.start) / profile.step) for v in span)
+    reach, least = round(_FLANK / profile.step), round(_STANDS / profile.step)
+    solid = profile.low >= 0.12
+    return bool(min(solid[max(0, a - reach) : a].sum(), solid[b : b + reach].sum()) >= least)
 
 
 def _without(runs: Float, spans: list[tuple[float, float]]) -> Float:

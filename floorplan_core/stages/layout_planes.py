@@ -27,6 +27,7 @@ Float = NDArray[np.float64]
 _LOW_FROM = 0.2  # m, skirting and floor
 _PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
 _RECESSED = 0.8  # share of a plane that must lie behind another wall to be its recess
+_PATCHY = 0.7  # m between patches of floor, where no ray told free space
 _HOLE = 0.35  # m, too narrow to pass
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
@@ -144,13 +145,14 @@ def _profile(
     high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
     low = count_bits(bits & low_mask) / int(count_bits(low_mask))
     high = count_bits(bits & high_mask) * LEVEL
-    return WallProfile(
-        float(evidence.origin[1 - across]),
-        evidence.fine,
-        low,
-        high,
-        _through(facing, offset, evidence),
-    )
+    through = _through(facing, offset, evidence)
+    if (
+        not evidence.viewpoints
+    ):  # free space is inferred from patches of floor and ceiling: spread it over the gaps
+        reach = round(_PATCHY / evidence.fine)
+        through = np.lib.stride_tricks.sliding_window_view(np.pad(through, reach), 2 * reach + 1).max(axis=1)
+        through = np.where(low > 0, 0.0, through)
+    return WallProfile(float(evidence.origin[1 - across]), evidence.fine, low, high, through)
 
 
 def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
