@@ -1,4 +1,4 @@
-"""The order of the stages for an occupancy grid map: the same method, with planes and free space from the grid.
+"""The order of the stages for an occupancy grid map: the method, with planes and free space from the grid.
 
 frame       yaw of the map's walls; the map in the Manhattan frame, furniture taken out
 doors       chords that complete the walls part the floor into spaces
@@ -29,15 +29,14 @@ from floorplan_core.model import (
     CandidateSet,
     Door,
     FloorPlan,
+    GridMap,
     LayoutPlane,
-    LayoutSegment,
     LocalFrame,
     OccupancyGrid,
     RectangleCover,
     Region,
     WallPoints,
 )
-from floorplan_core.model.grid_map import GridMap
 from floorplan_core.observer import Observer
 from floorplan_core.pipeline import _candidates, _cover_the_rest
 from floorplan_core.plugins import RegionClassifier, find_classifier
@@ -120,9 +119,9 @@ def plan_grid_map(
     for text in warnings:
         observer.warning(text)
     return FloorPlan(
-        ground.frame, LocalFrame(), segments, _all_planes(planes, solved), doors, grid, join_candidates(sets), cover,
-        regions, _wall_points(boundary, grid), np.zeros((0, 2)), grid_map.name,
-        int(np.count_nonzero(grid_map.states)), config, warnings, seconds,
+        ground.frame, LocalFrame(), segments, _all_planes(planes, solved), doors, grid,
+        join_candidates(sets), cover, regions, _wall_points(boundary, grid), np.zeros((0, 2)), grid_map.name,
+        int(np.count_nonzero(grid_map.states)), config, warnings, seconds, raster=grid_map.raster,
     )  # fmt: skip
 
 
@@ -143,7 +142,8 @@ def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved
 
 
 def _regions(
-    solved: list[_Solved], first: NDArray[np.int64], doors: tuple[Door, ...], grid: OccupancyGrid, config: Config
+    solved: list[_Solved], first: NDArray[np.int64], doors: tuple[Door, ...], grid: OccupancyGrid,
+    config: Config,
 ) -> tuple[tuple[Region, ...], int]:  # fmt: skip
     """One region for each space, by its rectangles or by its outline, and how many are outlines."""
     found: list[Region] = []
@@ -158,7 +158,8 @@ def _regions(
             found.append(replace(region, rectangles=own + row))
 
     def rebuild(polygon: Any, region: Region) -> Region:
-        return outline_region(polygon, grid, region.rectangles)
+        rows = np.zeros(0, dtype=np.int64) if region.rectangles is None else region.rectangles
+        return outline_region(polygon, grid, rows)
 
     return in_reading_order(disjoint(found, rebuild)), drawn
 

@@ -24,13 +24,20 @@ Assignments = Annotated[
     typer.Option("--set", metavar="STAGE.FIELD=VALUE", help="Change one setting; may be repeated."),
 ]
 SurveyArgument = Annotated[
-    Path, typer.Argument(metavar="INPUT", help="A point cloud, or a folder of scans.", show_default=False)
+    Path,
+    typer.Argument(
+        metavar="INPUT", help="A point cloud, a folder of scans, or a grid map.", show_default=False
+    ),
 ]
 TrajectoryFile = Annotated[
     Path | None,
     typer.Option(
         "--trajectory", metavar="FILE", help="The sensor's path (TUM); default: the file beside INPUT."
     ),
+]
+Resolution = Annotated[
+    float | None,
+    typer.Option("--resolution", metavar="METRES", help="Metres a pixel, where INPUT is a picture of a map."),
 ]
 OutFolder = Annotated[
     Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the results.", show_default=False)

@@ -17,6 +17,7 @@ from floorplan_core.cli.options import (
     JsonFlag,
     OutFolder,
     QuietFlag,
+    Resolution,
     SurveyArgument,
     TrajectoryFile,
     resolve_config,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 PLAN_FILE = "plan.floorplan"
 DRAWINGS = ("plan.geojson", "plan.svg")
 PICTURES = ("planes.png", "occupancy.png", "plan.png")
+LABEL_IMAGE = "labels.png"
 
 
 def plan(
@@ -36,7 +38,11 @@ def plan(
     survey: SurveyArgument,
     out: OutFolder,
     trajectory: TrajectoryFile = None,
+    resolution: Resolution = None,
     pictures: Annotated[bool, typer.Option(help="Write the paper's three figures as PNG too.")] = True,
+    labels_png: Annotated[
+        bool, typer.Option("--labels-png", help="Write the regions as a label image, labels.png, too.")
+    ] = False,
     save_stages: Annotated[
         bool, typer.Option("--save-stages", help="Keep what every stage made, in DIR/stages.")
     ] = False,
@@ -61,8 +67,8 @@ def plan(
         if from_stage and stages:
             made, clock = replan(stages, from_stage, settings, observer)
         else:
-            made, clock = make_plan(survey, trajectory, settings, observer)
-        names = DRAWINGS + (PICTURES if pictures else ())
+            made, clock = make_any_plan(survey, trajectory, resolution, settings, observer)
+        names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
         clock["export"] = write_plan(made, staging, names, observer)
         if save_stages:
             _save_stages(made, observer, staging)
@@ -78,6 +84,39 @@ def plan(
         "warnings": report["warnings"],
     }
     console.result(data, summary(made, clock["total"], out, files))
+
+
+def make_any_plan(
+    survey: Path, trajectory: Path | None, resolution: float | None, config: Config, observer: CommandObserver
+) -> tuple[FloorPlan, dict[str, float]]:
+    """The plan of an occupancy grid map or of a reconstruction, by what ``survey`` is."""
+    from floorplan_core.errors import UsageError
+    from floorplan_core.readers.grid_map import is_grid_map
+
+    if is_grid_map(survey):
+        if trajectory is not None or observer.keep_results:
+            raise UsageError(f"{survey.name} is a grid map: --trajectory and --save-stages are for surveys.")
+        return make_map_plan(survey, resolution, config, observer)
+    if resolution is not None:
+        raise UsageError(f"--resolution is for pictures of grid maps; {survey.name} is none.")
+    return make_plan(survey, trajectory, config, observer)
+
+
+def make_map_plan(
+    path: Path, resolution: float | None, config: Config, observer: CommandObserver
+) -> tuple[FloorPlan, dict[str, float]]:
+    """Read an occupancy grid map and run its pipeline; returns the plan and the seconds spent in reading."""
+    from floorplan_core.readers.grid_map import read_grid_map
+
+    started = perf_counter()
+    grid_map = read_grid_map(path, resolution)
+    clock = {"read": perf_counter() - started}
+    for sentence in grid_map.assumptions:
+        observer.console.message(sentence)
+    announce_compilation(observer)
+    from floorplan_core.grid_pipeline import plan_grid_map  # after reading: bad input is answered at once
+
+    return plan_grid_map(grid_map, config, observer), clock
 
 
 def make_plan(

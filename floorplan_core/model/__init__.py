@@ -2,6 +2,7 @@
 
 from floorplan_core.model.cover import CandidateSet, RectangleCover
 from floorplan_core.model.floor_plan import FloorPlan, RegionSide, WallPoints
+from floorplan_core.model.grid_map import GridMap, MapRaster
 from floorplan_core.model.layout import Door, Facing, LayoutPlane, LayoutSegment, WallProfile
 from floorplan_core.model.manhattan import ManhattanFrame
 from floorplan_core.model.occupancy import FREE, OCCUPIED, UNOBSERVED, OccupancyGrid
@@ -16,10 +17,12 @@ __all__ = [
     "Door",
     "Facing",
     "FloorPlan",
+    "GridMap",
     "LayoutPlane",
     "LayoutSegment",
     "LocalFrame",
     "ManhattanFrame",
+    "MapRaster",
     "OccupancyGrid",
     "PointChunk",
     "Reconstruction",

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.model.cover import CandidateSet, RectangleCover
+from floorplan_core.model.grid_map import MapRaster
 from floorplan_core.model.layout import Door, LayoutPlane, LayoutSegment
 from floorplan_core.model.manhattan import ManhattanFrame
 from floorplan_core.model.occupancy import FREE, OccupancyGrid
@@ -53,6 +54,7 @@ class FloorPlan:
     warnings: tuple[str, ...] = ()
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage
     storey: int = 0
+    raster: MapRaster | None = None  # of the grid map that it was made from
 
     def to_world(self, xy: Float) -> Float:
         """(N, 2) manhattan plan coordinates to (N, 2) coordinates of the input's world frame, metres."""

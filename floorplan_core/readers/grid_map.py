@@ -18,8 +18,7 @@ import yaml
 from numpy.typing import NDArray
 
 from floorplan_core.errors import InputError, UsageError
-from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED
-from floorplan_core.model.grid_map import GridMap
+from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, GridMap
 
 IMAGE_SUFFIXES = (".png", ".pgm", ".bmp")
 YAML_SUFFIXES = (".yaml", ".yml")
@@ -68,7 +67,7 @@ def read_grid_map(path: Path, resolution: float | None = None) -> GridMap:
             f"{path.name} is a picture and has no scale; say how many metres a pixel is, "
             "like --resolution 0.05, or give the map's YAML file."
         )
-    said = f"{path.name} is a bare image: {_BARE_FREE} and more was read as free, 205 as unknown, the rest as wall."
+    said = f"{path.name} is a bare image: {_BARE_FREE} and more is free, 205 is unknown, all else is wall."
     grey, _ = _read_image(path)
     return GridMap(path.name, _bare(grey), _checked(resolution, path.name), assumptions=(said,))
 
@@ -99,14 +98,15 @@ def _read_sheet(path: Path) -> _Sheet:
         raise InputError(f"{path.name} is no map YAML: it does not say {' and '.join(missing)}.")
     try:
         x, y, yaw = (float(v) for v in data.get("origin", (0, 0, 0)))
-        numbers = [float(data.get(k, d)) for k, d in (("occupied_thresh", 0.65), ("free_thresh", 0.196))]
+        occupied, free = float(data.get("occupied_thresh", 0.65)), float(data.get("free_thresh", 0.196))
         sheet = _Sheet(
             path.parent / str(data["image"]), float(data["resolution"]), (x, y, yaw),
-            bool(int(data.get("negate", 0))), *numbers, scale=str(data.get("mode", "trinary")) == "scale",
+            bool(int(data.get("negate", 0))), occupied, free,
+            scale=str(data.get("mode", "trinary")) == "scale",
         )  # fmt: skip
     except (TypeError, ValueError) as error:
         raise InputError(f"{path.name} is a damaged map YAML: {str(error)[:100]}.") from error
-    if not all(map(math.isfinite, (x, y, yaw, *numbers))):
+    if not all(map(math.isfinite, (x, y, yaw, occupied, free))):
         raise InputError(f"{path.name} is a damaged map YAML: origin and thresholds must be finite numbers.")
     return sheet
 

@@ -1,10 +1,10 @@
 """From a grid map to a floor in the Manhattan frame: yaw, resampling, furniture.
 
-In: a :class:`GridMap`. Out: the frame, the occupancy grid with its universe, and the floor: all cells on which
-one could stand if the furniture were taken out. The yaw is the strongest direction of the boundaries of the free
-space, refined until they are sharpest, as for points. A map has one height only; what it can tell of furniture
-is size, shape and whether it touches a wall: small isolated objects (legs, bins, columns) are furniture,
-isolated objects that are long and thin are pieces of wall, and what touches a wall counts as wall.
+In: a :class:`GridMap`. Out: the frame, the occupancy grid with its universe, and the floor: all cells on
+which one could stand if the furniture were taken out. The yaw is the strongest direction of the boundaries of
+the free space, refined until they are sharpest, as for points. A map has one height only; what it can tell of
+furniture is size, shape and whether it touches a wall: small isolated objects (legs, bins, columns) are
+furniture, isolated objects that are long and thin are pieces of wall, and what touches a wall counts as wall.
 Cost: a few passes over the cells.
 """
 
@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config, FrameConfig, MapsConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, ManhattanFrame, OccupancyGrid
-from floorplan_core.model.grid_map import GridMap
+from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, GridMap, ManhattanFrame, OccupancyGrid
 from floorplan_core.stages import manhattan_frame as frames
 
 Float = NDArray[np.float64]
@@ -71,7 +70,7 @@ def find_floor(grid_map: GridMap, config: Config) -> MapFloor:
 
 
 def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, float]:
-    """Yaw of the walls in the map's axes, radians; the share of boundary that supports it; metres of boundary."""
+    """Yaw of the walls in the map's axes, radians; the share of boundary behind it; metres of boundary."""
     edges = _straight_edges(free)
     vector = edges[:, 2:] - edges[:, :2]
     length = np.hypot(vector[:, 0], vector[:, 1])
@@ -101,7 +100,7 @@ def _straight_edges(free: Bool) -> Float:
 
 
 def _sharpened(edges: Float, coarse: float, config: FrameConfig) -> float:
-    """The yaw around ``coarse`` under which the boundaries, projected along their own direction, are sharpest."""
+    """The yaw around ``coarse`` under which the boundaries, projected along themselves, are sharpest."""
     vector = edges[:, 2:] - edges[:, :2]
     angle = np.arctan2(vector[:, 1], vector[:, 0]) - coarse
     off = frames._wrap(angle)

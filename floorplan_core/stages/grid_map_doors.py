@@ -1,13 +1,15 @@
 """Doors of a map: passages in walls along the axes, measured from jamb to jamb.
 
-In: passages, planes and the floor. Out: doors, each a child of the planes of its wall's faces. A passage in a
-wall at another angle parts spaces like any other, but has no place in a Manhattan plan: it is counted, not drawn.
+In: passages, planes and the floor. Out: doors, each a child of the planes of its wall's faces. A passage in
+a wall at another angle parts spaces like any other, but has no place in a Manhattan plan: it is counted, not
+drawn.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +21,8 @@ from floorplan_core.stages.grid_map_passages import MOUTH, Passage
 
 Bool = NDArray[np.bool_]
 
-_SKEW = math.radians(25)  # a chord across a thick wall may lean this much; more is a wall at another angle
+_SKEW = math.radians(25)  # a chord across a thick wall may lean this much
+_UPRIGHT = math.radians(6)  # a chord that leans more needs a wall as thick as its lean
 _WIDER = 1.2  # a run along the wall this much longer than the chord is not the opening itself
 _FLANK = 0.25  # m of wall in line that make a jamb
 _NEAR_PLANE = 0.15  # m between a face of the door's wall and the plane that explains it
@@ -51,17 +54,19 @@ def _door(
     low, high = sorted((x0, x1) if axis == 1 else (y0, y1))
     low, high = _jambs(cells, u, v, low, high)
     near, far = (v, v) if passage.kind == MOUTH else _faces(cells, u, v, high - low, grid.cell, config)
+    if lean > _UPRIGHT and far - near + 2 < (high - low) * math.tan(lean):
+        return None  # the wall itself leans
     o = grid.origin
     return Door(
         id="", planes=(), axis=axis, offset=float(o[axis] + ((near + far) / 2 + 0.5) * grid.cell),
         start=float(o[1 - axis] + low * grid.cell), end=float(o[1 - axis] + high * grid.cell),
-        thickness=float((far - near) * grid.cell), evidence=_evidence(passage), confidence=_confidence(passage),
-        kind="door" if (high - low) * grid.cell <= config.max_width else "opening",
+        thickness=float((far - near) * grid.cell), evidence=_evidence(passage),
+        confidence=_confidence(passage), kind=_kind(passage, (high - low) * grid.cell, config),
     )  # fmt: skip
 
 
 def _jambs(cells: Bool, u: float, v: float, low: float, high: float) -> tuple[float, float]:
-    """Edges of the opening along the wall, cells; the chord's own ends where the run through its middle is longer."""
+    """Edges of the opening along the wall, cells; the chord's own ends where its middle is wider."""
     most = _WIDER * (high - low) + 2
     left, right = (march(cells, round(u), round(v), s, 0.0, most) for s in (-1.0, 1.0))
     start, end = round(u) - math.ceil(left - 0.5), round(u) + math.ceil(right - 0.5)
@@ -92,6 +97,10 @@ def _run(cells: Bool, u: float, v: float, width: float) -> float:
     return float(march(cells, i, j, 1.0, 0.0, 2 * width) + march(cells, i, j, -1.0, 0.0, 2 * width))
 
 
+def _kind(passage: Passage, width: float, config: DoorsConfig) -> str:
+    return "door" if width <= config.max_width and passage.kind != MOUTH else "opening"
+
+
 def _evidence(passage: Passage) -> tuple[str, ...]:
     if passage.kind == MOUTH:
         return ("corridor opens into a hall",)
@@ -106,8 +115,6 @@ def _confidence(passage: Passage) -> float:
 
 def _named(door: Door, k: int, planes: Sequence[LayoutPlane]) -> Door:
     """The door with its id and the planes whose wall it interrupts."""
-    from dataclasses import replace
-
     mine = [
         p.id
         for p in planes

@@ -1,7 +1,7 @@
 """Outlines of spaces that rectangles of layout planes do not explain: walls at other angles, round rooms.
 
-In: the cells of a space. Out: a region whose boundary is that of the cells, simplified. It is what the map shows,
-not what layout planes explain, and its sides name no plane.
+In: the cells of a space. Out: a region whose boundary is that of the cells, simplified. It is what the map
+shows, not what layout planes explain, and its sides name no plane.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _MOVE = 0.15  # m that a corner may move when its sides are straightened
 
 
 def outline(space: Bool, grid: OccupancyGrid) -> Any:
-    """Shapely polygon around the cells of a space, its sides along the axes where they nearly are; None if empty."""
+    """Shapely polygon around a space, its sides along the axes where they nearly are; None if empty."""
     import cv2
 
     kernel = np.ones((_WHISKER, _WHISKER), dtype=np.uint8)
@@ -62,7 +62,7 @@ def _off_axis(edges: Float) -> Float:
 
 
 def _straighten(ring: Any) -> Float:
-    """(N, 2) corners of a ring; the two ends of every long side near an axis get the same offset, its mean."""
+    """(N, 2) corners of a ring; both ends of every long side near an axis get the same offset, its mean."""
     points = np.asarray(ring.coords)[:-1].copy()
     following = np.roll(points, -1, axis=0)
     edges = following - points
@@ -89,7 +89,8 @@ def outline_region(polygon: Any, grid: OccupancyGrid, rows: NDArray[np.int64]) -
     walled = sum(s.length * s.observed for s in sides) / length if length else 0.0
     return Region(
         id="", name="", polygon=polygon, label="", free_cells=free, total_cells=total, turning_distance=0.0,
-        sides=sides, confidence=round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3), rectangles=rows,
+        sides=sides, confidence=round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3),
+        rectangles=rows,
     )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Doors and passages of a map: the chords of its free space that complete a wall.
 
-In: the floor of a map (cells where one can stand). Out: chords that part it into spaces. Ends of walls are the
-reflex corners of the free space. Candidate chords join two of them, or prolong a wall from one of them to
+In: the floor of a map (cells where one can stand). Out: chords that part it into spaces. Ends of walls are
+the reflex corners of the free space. Candidate chords join two of them, or prolong a wall from one of them to
 the wall ahead: the apertures of the paper's matched filter, for walls of any direction. A chord is
 
 - a *door* where both sides are much wider than it, measured parallel to it behind the wall's thickness, and
@@ -79,7 +79,7 @@ def find_passages(floor: Bool, cell: float, config: MapsConfig) -> tuple[tuple[P
         (MOUTH, config.max_mouth, config.passage_wall),
     ):
         gap = _distance(cut)
-        for k in np.flatnonzero((chords.wall >= share) & (chords.length <= longest / cell)):
+        for k in map(int, np.flatnonzero((chords.wall >= share) & (chords.length <= longest / cell))):
             width = _parts(chords, k, kind, cut, gap, cell, config)
             if width is not None:
                 found.append(_passage(chords, k, kind, width, cell))

@@ -1,9 +1,9 @@
 """What bounds one space of a map, as the other stages take it: planes, blockers and a grid of its own.
 
-In: the spaces, their boundary and the layout planes. Out: a :class:`SpaceProblem` for each space. Passages and
-other spaces are walls to it, so that its rectangles cannot leak; a passage that is a straight side closes it like
-a plane. Its candidates and its cover are joined to those of the whole map by :func:`join_candidates` and
-:func:`join_covers`. Cost: linear in the cells around the space.
+In: the spaces, their boundary and the layout planes. Out: a :class:`SpaceProblem` for each space. Passages
+and other spaces are walls to it, so that its rectangles cannot leak; a passage that is a straight side closes
+it like a plane. :func:`join_candidates` and :func:`join_covers` make one set of them for the whole map.
+Cost: linear in the cells around the space.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def space_problems(
     spaces: Labels, floor: Bool, grid: OccupancyGrid, boundary: Boundary,
     segments: Sequence[LayoutSegment], rows: Int, planes: Sequence[LayoutPlane], config: Config,
 ) -> list[SpaceProblem]:  # fmt: skip
-    """All spaces in the order of their numbers; ``rows`` are the pieces of the boundary behind ``segments``."""
+    """All spaces in the order of their numbers; ``rows`` are the boundary's pieces behind ``segments``."""
     from scipy.ndimage import find_objects
 
     plane_of = {p.id: p for p in planes}
@@ -66,7 +66,7 @@ def space_problems(
     out = []
     for number, box in enumerate(find_objects(spaces), start=1):
         mine = boundary.take(boundary.space == number)
-        own = tuple(segments[k] for k in np.flatnonzero(space_of == number))
+        own = tuple(segments[int(k)] for k in np.flatnonzero(space_of == number))
         names = dict.fromkeys(s.plane for s in own)
         window = _around(box, spaces.shape, grid.cell)
         mask = spaces[window] == number
@@ -104,14 +104,17 @@ def _passage_planes(
 
 
 def explained(region: Region, problem: SpaceProblem) -> float:
-    """0 to 1: how well a region agrees with its space: cells of it that it covers, cells of others that it spares."""
+    """0 to 1: how well a region agrees with its space: it covers the space's cells and spares all others."""
     grid = problem.grid
     window, inside = polygon_window(region.polygon, grid.origin, grid.cell, grid.states.shape)
-    covered = np.count_nonzero(inside & problem.mask[window]) / max(np.count_nonzero(problem.mask), 1)
+    covered = _share(inside & problem.mask[window], problem.mask)
     core = shapely.buffer(region.polygon, -_INSIDE, join_style="mitre")
     window, deep = polygon_window(core, grid.origin, grid.cell, grid.states.shape)
-    trespass = np.count_nonzero(deep & problem.alien[window]) / max(np.count_nonzero(deep), 1)
-    return float(min(covered, 1.0 - trespass))
+    return min(covered, 1.0 - _share(deep & problem.alien[window], deep))
+
+
+def _share(part: Bool, whole: Bool) -> float:
+    return int(np.count_nonzero(part)) / max(int(np.count_nonzero(whole)), 1)
 
 
 def join_candidates(sets: Sequence[CandidateSet]) -> CandidateSet:
@@ -124,12 +127,16 @@ def join_candidates(sets: Sequence[CandidateSet]) -> CandidateSet:
         )
         for s in sets
     ]
+    none = np.zeros(0, dtype=np.int64)
     return CandidateSet(
-        *planes,
-        np.concatenate([np.zeros((0, 4)), *index]).astype(np.int32),
-        np.concatenate([np.zeros(0, dtype=np.int64), *(s.total_cells for s in sets)]),
-        np.concatenate([np.zeros(0, dtype=np.int64), *(s.free_cells for s in sets)]),
-        int(np.prod([len(p) for p in planes], dtype=object)),
+        x_plus=planes[0],
+        x_minus=planes[1],
+        y_plus=planes[2],
+        y_minus=planes[3],
+        index=np.concatenate([np.zeros((0, 4)), *index]).astype(np.int32),
+        total_cells=np.concatenate([none, *(s.total_cells for s in sets)]),
+        free_cells=np.concatenate([none, *(s.free_cells for s in sets)]),
+        enumerated=int(np.prod([len(p) for p in planes], dtype=object)),
     )
 
 
@@ -144,12 +151,14 @@ def join_covers(
     for cover, problem in zip(covers, problems, strict=True):
         uncovered[problem.window] |= cover.uncovered
     none = np.zeros(0, dtype=np.int64)
-    counts = (
-        np.concatenate([none, *(getattr(c, name) for c in covers)])
-        for name in ("total_cells", "free_cells", "gained")
+    joined = RectangleCover(
+        np.concatenate([none, *chosen]),
+        np.concatenate([np.zeros((0, 4)), *(c.bounds for c in covers)]),
+        np.concatenate([none, *(c.total_cells for c in covers)]),
+        np.concatenate([none, *(c.free_cells for c in covers)]),
+        np.concatenate([none, *(c.gained for c in covers)]),
+        uncovered,
     )
-    bounds = np.concatenate([np.zeros((0, 4)), *(c.bounds for c in covers)])
-    joined = RectangleCover(np.concatenate([none, *chosen]), bounds, *counts, uncovered)
     return joined, np.cumsum([0, *(len(c) for c in covers)])
 
 

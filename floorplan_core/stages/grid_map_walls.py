@@ -1,10 +1,11 @@
 """Layout segments and planes of a map: the straight boundaries of its spaces.
 
 In: the spaces of the floor and the states of the map. Out: segments (observed walls, facing the free side),
-planes (fewest offsets that explain them) and, for each space, everything that bounds it: the lines that block
-rectangles and the offsets that may close them. A boundary cell stands against *wall*, against the *open* floor
-of another space (a passage), or against the *frontier* of what was never seen; the frontier neither blocks nor
-closes, so that rectangles may predict beyond it. Heights are unknown: areas are per metre of height.
+planes (fewest offsets that explain them) and, for each space, everything that bounds it: the lines that
+block rectangles and the offsets that may close them. A boundary cell stands against *wall*, against the
+*open* floor of another space (a passage), or against the *frontier* of what was never seen; the frontier
+neither blocks nor closes, so that rectangles may predict beyond it. Heights are unknown: areas are per metre
+of height.
 Cost: linear in the boundary cells.
 """
 
@@ -83,9 +84,10 @@ def _pieces(facing: Facing, spaces: Labels, floor: Bool, grid: OccupancyGrid) ->
     """The pieces of one facing."""
     import cv2
 
-    label, ground, solid = (
-        a if facing.axis == 0 else a.T for a in (spaces, floor, grid.states == OCCUPIED)
-    )  # rows now run along the wall
+    solid_map = grid.states == OCCUPIED
+    turn = facing.axis == 1  # rows then run along the wall
+    label = spaces.T if turn else spaces
+    ground, solid = (floor.T, solid_map.T) if turn else (floor, solid_map)
     beyond = _shifted(label, facing.sign, 1)
     edge = (label > 0) & (beyond != label)
     along, across = np.nonzero(edge)
@@ -98,7 +100,7 @@ def _pieces(facing: Facing, spaces: Labels, floor: Bool, grid: OccupancyGrid) ->
     return _summary(facing, along, across + (facing.sign < 0), mine, against, piece, grid)
 
 
-def _shifted(array: NDArray[np.generic], sign: int, cells: int) -> NDArray[np.generic]:
+def _shifted(array: Labels, sign: int, cells: int) -> Labels:
     """What lies ``cells`` beyond each cell, against the facing; 0 beyond the map."""
     out = np.zeros_like(array)
     if sign > 0:
@@ -155,7 +157,8 @@ def _summary(
     deviation = np.maximum.reduceat(np.abs(line - np.repeat(mean, count.astype(int))), first)
     a, o = facing.axis, grid.origin
     return Boundary(
-        np.full(len(first), facing, dtype=np.int8), space[first], o[a] + mean * grid.cell, deviation * grid.cell,
+        np.full(len(first), facing, dtype=np.int8), space[first], o[a] + mean * grid.cell,
+        deviation * grid.cell,
         o[1 - a] + along[first] * grid.cell, o[1 - a] + (along[first] + count) * grid.cell,
         np.add.reduceat(against == WALL, first, dtype=np.float64) / count,
         np.add.reduceat(against == OPEN, first, dtype=np.float64) / count,
@@ -185,7 +188,7 @@ def _segment(name: str, boundary: Boundary, k: int, grid: OccupancyGrid) -> Layo
 def wall_planes(
     segments: Sequence[LayoutSegment], cell: float, config: Config
 ) -> tuple[tuple[LayoutSegment, ...], tuple[LayoutPlane, ...]]:
-    """The fewest planes that explain the segments within the tolerance (or a cell), and whose each segment is."""
+    """The fewest planes that explain the segments within the tolerance (or a cell), and each one's plane."""
     reach = max(config.planes.tolerance, cell)
     planes: list[LayoutPlane] = []
     out = list(segments)
