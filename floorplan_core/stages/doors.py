@@ -1,10 +1,11 @@
 """Doors (paper, section "Door Detection"): histogram along the plane, smoothed gradient, matched filter.
 
-In: planes with their profiles, the voxel columns and the path. Out: doors, each a child of one or two planes.
-The points of a plane, cropped at 2 m, make a histogram along it; its smoothed gradient falls where an opening
-begins and rises where it ends; the matched filter answers to a fall and a rise one aperture apart. An aperture
-alone may be a gap in the data, so each candidate is then weighed by all other evidence: free space or the
-sensor's path through it, wall on both sides, a lintel above, the same opening in the wall's other face.
+In: planes with their profiles, the voxel columns and the path. Out: doors, children of one or two planes.
+The points of a plane, cropped at 2 m, make a histogram along it; its smoothed gradient falls where an
+opening begins and rises where it ends; the matched filter answers to a fall and a rise one aperture apart.
+An aperture alone may be a gap in the data, so each candidate is then weighed by all other evidence: free
+space or the sensor's path through it, wall on both sides, a lintel above, the same opening in the wall's
+other face.
 Cost: linear in the length of the planes times the number of widths.
 """
 
@@ -25,8 +26,10 @@ from floorplan_core.stages.layout_planes import is_solid
 
 Float = NDArray[np.float64]
 
+_BARE_CORNER = 1.0  # m, widest corner opening without a lintel that is still a door
 _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
+_PARAPET = 0.3  # of the height below 2 m, seen all along an aperture: something stands in it
 _UNSEEN = 0.3  # most that an opening can earn through which nothing was seen to pass
 _WEIGHTS = {
     "passage": 0.3,
@@ -52,17 +55,32 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     """All doors and openings under a lintel, by axis, offset and start."""
     found: list[Door] = []
     crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
+    # Where the survey shows no lintel anywhere, a wide gap at a corner is rather a passage past a wall's end.
+    widest = np.inf if any(_has_lintel(p.profile) for p in planes if p.profile) else _BARE_CORNER
     for plane in planes:
         assert plane.profile is not None
         meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
-        for start, end, response in apertures(plane.profile, plane.walls, meets, config):
-            found.append(_weigh(plane, start, end, response, evidence, config))
+        for start, end, response in apertures(plane.profile, plane.walls, meets, config, widest):
+            if not _has_parapet(plane.profile, start, end):
+                found.append(_weigh(plane, start, end, response, evidence, config))
     merged = [_kind(d, config) for d in refine_edges(_merge_faces(found, planes, config), planes, evidence)]
     kept = sorted(
         (d for d in merged if d.confidence >= config.min_confidence),
         key=lambda d: (d.axis, d.offset, d.start),
     )
     return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
+
+
+def _has_lintel(profile: WallProfile) -> bool:
+    """True where wall was seen above 2 m over at least the width of a door, and none below."""
+    return float(((profile.high > 0) & (profile.low == 0)).sum()) * profile.step >= _CORNER_PASSAGE
+
+
+def _has_parapet(profile: WallProfile, start: float, end: float) -> bool:
+    """True where wall was seen along the whole aperture: a window or a hatch, not a door."""
+    a, b = (round((v - profile.start) / profile.step) for v in (start, end))
+    inside = profile.low[a + 2 : b - 2]
+    return len(inside) > 0 and float(np.percentile(inside, 25)) > _PARAPET
 
 
 def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
@@ -91,9 +109,9 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
 
 
 def apertures(
-    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig
+    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig, widest_corner: float = np.inf
 ) -> list[tuple[float, float, float]]:
-    """(start, end, response) of the openings in one plane: peaks of the filter, gaps under lintels and at corners.
+    """(start, end, response) of the openings in one plane: peaks of the filter, gaps under lintels, corners.
 
     :param walls: (K, 2) the plane's wall runs; ``meets``: (M,) where walls cross the plane. Metres along it.
     """
@@ -108,14 +126,17 @@ def apertures(
             first, last = _widen(profile, int(k), int(end), config)
             taken[max(0, first - 1) : last + 1] = True
             out.append((*_edges(profile, first, last), float(signal.response[k])))
-    for gap in (*_lintel_gaps(profile, walls, config), *_corner_gaps(profile, walls, meets, config)):
+    for gap in (
+        *_lintel_gaps(profile, walls, config),
+        *_corner_gaps(profile, walls, meets, config, widest_corner),
+    ):
         if not _overlaps(gap, out):
             out.append(gap)
     return out
 
 
 def _corner_gaps(
-    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig
+    profile: WallProfile, walls: Float, meets: Float, config: DoorsConfig, widest: float
 ) -> list[tuple[float, float, float]]:
     """Openings between the end of a wall run and a crossing wall: only one of their sides is in the plane."""
     out = []
@@ -127,6 +148,8 @@ def _corner_gaps(
                 continue
             low, high = sorted((float(edge), float(edge + sign * ahead.min())))
             a, b = (round((v - profile.start) / profile.step) for v in (low, high))
+            if high - low > widest:
+                continue
             open_ = np.flatnonzero(profile.through[a:b] > 0.3)
             if len(open_) * profile.step >= _CORNER_PASSAGE:
                 unseen = len(open_) < 0.5 * (b - a)  # the far jamb is hidden: keep to what was seen to pass
@@ -218,7 +241,7 @@ def _weigh(
 
 
 def _confidence(words: Sequence[str], response: float) -> float:
-    """Sum of the evidence; an aperture through which nothing was seen to pass is a gap in the data or a shut door."""
+    """Sum of the evidence; an aperture through which nothing was seen to pass is a gap or a shut door."""
     total = 0.1 * min(response, 1.0) + sum(_WEIGHTS.get(w, 0.0) for w in words)
     if "passage" not in words and "path" not in words:
         total = min(total, _UNSEEN)
