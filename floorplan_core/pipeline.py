@@ -215,7 +215,10 @@ class FloorPlanner:
         segments, planes = stage(
             "planes", lambda: find_planes(segments, rows, evidence, config.planes, config.doors)
         )
-        planes = stage("planes", lambda: close_corners(remove_beams(planes, config.doors.max_beamless)))
+        planes = stage(
+            "planes",
+            lambda: close_corners(remove_beams(planes, config.doors.max_beamless, config.doors.lintel_depth)),
+        )
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
         grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
         walls = blockers(planes, doors)
@@ -325,6 +328,7 @@ def process(
         planner.integrate_chunk(chunk, reconstruction.trajectory)
         done += len(chunk.points)
         observer.progress("read", done)
+    planner._begin()
     took = time.perf_counter() - began
     observer.stage_finished("read", took)
     plan = planner.plan()
