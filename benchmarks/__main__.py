@@ -1,9 +1,10 @@
-"""``python -m benchmarks [stages] [growth] [office] [optimum]``: all of them where none is named.
+"""``python -m benchmarks [stages] [growth] [office] [optimum] [maps]``: all of them where none is named.
 
 stages   the whole job on the hospital survey, stage by stage, beside what Open3D needs to read the same file
 growth   candidates and cover on buildings from 200 to 20,000 m2, and the exponent of their growth
 office   from planes to labels for 80 x 40 m and 100 planes a facing
 optimum  weight of the greedy cover against the true optimum on 100 buildings
+maps     rooms of eight occupancy grid maps against their hand-made segmentation, plain and furnished
 
 Times are the best of a few runs after one that warms up: wall time for ``stages``, CPU time of the one thread
 for the others. Tables go to the terminal, figures to
@@ -14,7 +15,7 @@ from __future__ import annotations
 
 import sys
 
-from benchmarks import cover, pipeline
+from benchmarks import cover, maps, pipeline
 from benchmarks.record import report
 
 BENCHMARKS = {
@@ -22,6 +23,7 @@ BENCHMARKS = {
     "growth": cover.growth,
     "office": cover.office,
     "optimum": cover.optimum,
+    "maps": maps.rooms,
 }
 
 

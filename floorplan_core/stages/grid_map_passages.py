@@ -39,6 +39,7 @@ _LOOK = 5.0  # m in which wall in line is looked for
 _FACE, _INSIDE = 2.0, 7.0  # cells in front of and behind a wall's face that still belong to it
 _NO_WALL = 0.5  # a chord without any wall in its line counts as longer by this share
 _TUNNEL, _BEYOND = 0.5, 0.8  # m: thickest wall; stretch behind it in which the free width is taken
+_PASSAGE_WALL = 1.0  # m of wall in line that a passage needs at one of its ends
 _LEAST_DEPTH = 0.5  # m that one must be able to go on either side
 _HALL_REACH = 3.0  # m beyond a mouth in which the hall begins
 _CORRIDOR = 1.15  # a corridor is no narrower than its mouth by more than this factor
@@ -83,7 +84,7 @@ def find_passages(floor: Bool, cell: float, config: MapsConfig) -> tuple[tuple[P
             width = _parts(chords, k, kind, cut, gap, cell, config)
             if width is not None:
                 found.append(_passage(chords, k, kind, width, cell))
-                _draw(cut, chords.ends[k], False)
+                _draw(cut, chords.ends[k])
     return _heal(found, floor, cut, cell, config)
 
 
@@ -106,12 +107,12 @@ def _distance(mask: Bool) -> Float:
     return np.asarray(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5), dtype=np.float64)
 
 
-def _draw(cut: Bool, ends: Float, value: bool) -> None:
-    """Set the cells of a chord; an 8-connected line parts 4-connected spaces."""
+def _draw(cut: Bool, ends: Float) -> None:
+    """Take out the cells of a chord; an 8-connected line parts 4-connected spaces."""
     import cv2
 
     x0, y0, x1, y1 = (round(float(v)) for v in ends)
-    cv2.line(cut.view(np.uint8), (x0, y0), (x1, y1), int(value), 1, cv2.LINE_8)
+    cv2.line(cut.view(np.uint8), (x0, y0), (x1, y1), 0, 1, cv2.LINE_8)
 
 
 def _candidates(floor: Bool, cell: float, config: MapsConfig) -> _Chords:
@@ -208,6 +209,8 @@ def _parts(
     dx, dy = (x1 - x0) / length, (y1 - y0) / length
     if march(cut, x0 + 1.5 * dx, y0 + 1.5 * dy, dx, dy, length - 3) < length - 3.6:
         return None  # crosses one that was cut already
+    if kind == PASSAGE and float(chords.flanks[k].max()) * cell < _PASSAGE_WALL:
+        return None  # a slanting line between two corners, not a gap in a wall
     x, y = (x0 + x1) / 2, (y0 + y1) / 2
     tunnel, beyond = _TUNNEL / cell, _BEYOND / cell
     sides = [opening(cut, x, y, -s * dy, s * dx, length, tunnel, beyond) for s in (1.0, -1.0)]
@@ -252,10 +255,10 @@ def _heal(
         if passage.kind == PASSAGE and beside and length / 2 >= _SAME_WIDTH * max(radius[list(beside)]):
             continue
         kept.append(passage)
-    cut = floor.copy()
+    whole = floor.copy()
     for passage in kept:
-        _draw(cut, np.array([*passage.start, *passage.end]), False)
-    return tuple(kept), label_spaces(cut, cell, config)
+        _draw(whole, np.array([*passage.start, *passage.end]))
+    return tuple(kept), label_spaces(whole, cell, config)
 
 
 def _beside(passage: Passage, labels: Labels) -> Labels:
