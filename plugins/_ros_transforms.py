@@ -1,0 +1,102 @@
+"""The tree of frames of a ROS recording: where a sensor was at any time."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+WORLD_FRAMES = ("map", "odom", "world", "camera_init", "local_origin", "earth", "global")
+TOLERANCE = 0.1  # seconds from the nearest known pose: a walker moves a voxel
+MAX_GAP = 2.0  # seconds between poses across which it is interpolated
+MAX_DEPTH = 32  # frames between a sensor and the root
+
+
+@dataclass
+class Edge:
+    """One frame in its parent over time."""
+
+    parent: str
+    seconds: list[float] = field(default_factory=list)
+    poses: list[Float] = field(default_factory=list)  # (4, 4) T_parent_child
+    static: bool = False
+
+    def at(self, times: Float) -> tuple[Float, NDArray[np.bool_]]:
+        """(N, 4, 4) poses at (N,) ``times``, and where they are known."""
+        if self.static or len(self.poses) == 1:
+            known = np.full(len(times), True) if self.static else np.abs(times - self.seconds[0]) <= TOLERANCE
+            return np.tile(self.poses[0], (len(times), 1, 1)), known
+        order = np.argsort(self.seconds, kind="stable")
+        return interpolate(np.array(self.seconds)[order], np.array(self.poses)[order], times)
+
+
+class FrameTree:
+    """Frames, each with one parent."""
+
+    def __init__(self) -> None:
+        self.edges: dict[str, Edge] = {}
+
+    def add(self, parent: str, child: str, seconds: float, pose: Float, static: bool) -> None:
+        """One observation; the first parent of a frame stays its parent."""
+        if parent == child:
+            return
+        edge = self.edges.setdefault(child, Edge(parent, static=static))
+        if edge.parent != parent or (static and edge.poses):
+            return
+        edge.seconds.append(seconds)
+        edge.poses.append(pose)
+
+    def chain(self, frame: str) -> list[str]:
+        """Frames from ``frame`` up to the root; stops where it would go in circles."""
+        chain = [frame]
+        while chain[-1] in self.edges and len(chain) < MAX_DEPTH:
+            parent = self.edges[chain[-1]].parent
+            if parent in chain:
+                break
+            chain.append(parent)
+        return chain
+
+    def moves(self, frame: str) -> bool:
+        """True where some frame between ``frame`` and the root moves."""
+        return any(len(self.edges[f].poses) > 1 and not self.edges[f].static for f in self.chain(frame)[:-1])
+
+    def poses(self, frame: str, times: Float) -> tuple[Float, NDArray[np.bool_]]:
+        """(N, 4, 4) T_root_frame at (N,) ``times``, and where all of the chain is known."""
+        total, known = np.tile(np.eye(4), (len(times), 1, 1)), np.full(len(times), True)
+        for child in self.chain(frame)[:-1]:
+            T, there = self.edges[child].at(times)
+            total, known = T @ total, known & there
+        return total, known
+
+
+def interpolate(seconds: Float, poses: Float, times: Float) -> tuple[Float, NDArray[np.bool_]]:
+    """(N, 4, 4) poses between rising ``seconds``; known near a pose, or between two close in time."""
+    after = np.clip(np.searchsorted(seconds, times), 1, len(seconds) - 1)
+    before = after - 1
+    gap = seconds[after] - seconds[before]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.clip(np.where(gap > 0, (times - seconds[before]) / gap, 0.0), 0.0, 1.0)
+    nearest = np.minimum(np.abs(times - seconds[before]), np.abs(times - seconds[after]))
+    inside = (times >= seconds[before]) & (times <= seconds[after]) & (gap <= MAX_GAP)
+    result = poses[before].copy()
+    result[:, :3, 3] += share[:, None] * (poses[after] - poses[before])[:, :3, 3]
+    result[:, :3, :3] = _between(poses[before, :3, :3], poses[after, :3, :3], share)
+    return result, inside | (nearest <= TOLERANCE)
+
+
+def _between(a: Float, b: Float, share: Float) -> Float:
+    """Rotations a share of the way from ``a`` to ``b`` (along the shortest arc)."""
+    from scipy.spatial.transform import Rotation
+
+    step = Rotation.from_matrix(np.swapaxes(a, 1, 2) @ b).as_rotvec()
+    return np.asarray(a @ Rotation.from_rotvec(share[:, None] * step).as_matrix())
+
+
+def tracks() -> dict[str, Any]:
+    """Odometry and pose topics: seconds, poses, and the frames that they relate."""
+    return defaultdict(lambda: {"seconds": [], "poses": [], "frame": "", "child": ""})
