@@ -169,9 +169,17 @@ def _by_rectangles(space: _Solved, doors: tuple[Door, ...], config: Config) -> R
     problem = space.problem
     if space.askew or len(space.cover) == 0:
         return None
-    made = build_regions(space.cover, space.planes, problem.segments, doors, problem.grid, config.regions)
+    near = [d for d in doors if _touches(d, problem.grid)]
+    made = build_regions(space.cover, space.planes, problem.segments, near, problem.grid, config.regions)
     best = max(made, key=lambda r: r.free_cells, default=None)
     return best if best is not None and explained(best, problem) >= config.maps.agreement else None
+
+
+def _touches(door: Door, grid: OccupancyGrid) -> bool:
+    """True where the door lies around a space's part of the map."""
+    (ax, ay), (bx, by) = door.line()
+    x0, y0, x1, y1 = grid.extent
+    return bool(ax <= x1 and bx >= x0 and ay <= y1 and by >= y0)
 
 
 def _by_outline(space: _Solved) -> Region | None:

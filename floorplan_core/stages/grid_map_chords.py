@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
+Int = NDArray[np.int64]
 
 _kernel = njit(cache=True, nogil=True)
 _STEP = 0.5  # cells: no cell along a line is jumped over unnoticed
@@ -29,6 +30,22 @@ def march(free: Bool, x: float, y: float, dx: float, dy: float, limit: float) ->
             break
         n += _STEP
     return n
+
+
+@_kernel
+def in_sight(free: Bool, points: Float, pairs: Int, least: float) -> Bool:
+    """(K,) pairs of points at least so far apart whose line stays in free cells.
+
+    :param points: (N, 2) x, y; ``pairs``: (K, 2) rows of them.
+    """
+    out = np.zeros(len(pairs), np.bool_)
+    for k in range(len(pairs)):
+        x, y = points[pairs[k, 0]]
+        dx, dy = points[pairs[k, 1], 0] - x, points[pairs[k, 1], 1] - y
+        length = np.hypot(dx, dy)
+        if length >= least:
+            out[k] = march(free, x, y, dx / length, dy / length, length) >= length - _STEP
+    return out
 
 
 @_kernel

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import MapsConfig
-from floorplan_core.stages.grid_map_chords import hall_ahead, march, opening, wall_ahead
+from floorplan_core.stages.grid_map_chords import hall_ahead, in_sight, march, opening, wall_ahead
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
@@ -156,18 +156,17 @@ def _reflex(ring: Float, hole: bool) -> Float:
     return np.asarray(table[corner])
 
 
-def _between(floor: Bool, corners: Float, least: float, most: float) -> list[Float]:
-    """Chords that join two wall ends in sight of each other."""
+def _between(floor: Bool, corners: Float, least: float, most: float) -> Float:
+    """(K, 4) chords that join two wall ends in sight of each other."""
     from scipy.spatial import cKDTree
 
-    pairs = cKDTree(corners[:, :2]).query_pairs(most, output_type="ndarray") if len(corners) else []
-    rows = []
-    for i, j in pairs:
-        a, b = corners[i, :2], corners[j, :2]
-        length = float(np.hypot(*(b - a)))
-        if length >= least and march(floor, *a, *((b - a) / length), length) >= length - 0.6:
-            rows.append(np.concatenate([a, b] if tuple(a) < tuple(b) else [b, a]))
-    return rows
+    if len(corners) < 2:
+        return np.zeros((0, 4))
+    pairs = cKDTree(corners[:, :2]).query_pairs(most, output_type="ndarray").astype(np.int64)
+    pairs = pairs[in_sight(floor, corners[:, :2].copy(), pairs, least)]
+    a, b = corners[pairs[:, 0], :2], corners[pairs[:, 1], :2]
+    swapped = (a[:, 0] > b[:, 0]) | ((a[:, 0] == b[:, 0]) & (a[:, 1] > b[:, 1]))
+    return np.where(swapped[:, None], np.hstack([b, a]), np.hstack([a, b]))
 
 
 def _prolonged(floor: Bool, corners: Float, cell: float, least: float, most: float) -> list[Float]:
