@@ -262,7 +262,7 @@ class MapsConfig(Section):
 
 
 class Config(Section):
-    """All settings. ``Config()`` holds the defaults; ``Config.load`` reads YAML; ``with_values`` overrides by name."""
+    """All settings. ``Config()`` holds the defaults, ``Config.load`` reads YAML, ``with_values`` overrides."""
 
     input: InputConfig = InputConfig()
     frame: FrameConfig = FrameConfig()

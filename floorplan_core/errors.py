@@ -14,7 +14,7 @@ class FloorPlanError(Exception):
 
 
 class UsageError(FloorPlanError):
-    """The call itself is wrong: an unknown option, a value out of bounds, two options that exclude each other."""
+    """The call itself is wrong: an unknown option, a value out of bounds, options that exclude each other."""
 
     exit_status = 2
 

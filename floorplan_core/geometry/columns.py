@@ -54,8 +54,8 @@ def hit_columns(xyz, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
 def facing_columns(u, v, z, toward, eligible, origin_u, origin_v, cell, nv, nu):  # type: ignore[no-untyped-def]
     """Bits, weight and weighted u, v of the points that are seen from the side to which the facing looks.
 
-    ``toward`` is the cosine-like component of the view along the facing's normal; points with ``toward < least``
-    belong to the other face. Rows run along v, columns along u.
+    ``toward`` is the cosine-like component of the view along the facing's normal; points with less than the
+    least of it belong to the other face. Rows run along v, columns along u.
     """
     bits = np.zeros((nv, nu), dtype=np.uint64)
     sums = np.zeros((nv, nu, 3), dtype=np.float32)
@@ -76,8 +76,8 @@ def facing_columns(u, v, z, toward, eligible, origin_u, origin_v, cell, nv, nu):
 def surface_offsets(bits, sums, band, cell, half, tangent, least):  # type: ignore[no-untyped-def]
     """Where the columns line up along v: the local offset (cells along u, as a float), else NaN.
 
-    In a window of ``2 * half + 1`` cells the covariance of the columns, each weighted by its number of levels in
-    ``band``, must be long along v: its main direction within the angle whose tangent is ``tangent``.
+    In a window of ``2 * half + 1`` cells the covariance of the columns, each weighted by its number of levels
+    in ``band``, must be long along v: its main direction within the angle whose tangent is ``tangent``.
     """
     nv, nu = bits.shape
     out = np.full((nv, nu), np.nan, dtype=np.float32)
@@ -116,14 +116,14 @@ def surface_offsets(bits, sums, band, cell, half, tangent, least):  # type: igno
 def link_chains(offsets, bits, tolerance, gap):  # type: ignore[no-untyped-def]
     """Link surface columns along v into chains of nearly constant offset.
 
-    ``tolerance`` and ``gap`` are in cells. Returns the nodes (chain, row, first column, last column, offset, bits),
-    one for each row that a chain crosses, in order of rows, and the number of chains.
+    ``tolerance`` and ``gap`` are in cells. Returns the nodes (chain, row, first column, last column, offset,
+    bits), one for each row that a chain crosses, in order of rows, and the number of chains.
     """
     nv, nu = offsets.shape
     most = nv * 8 + 64
     chain_u, chain_w, chain_last = np.zeros(most), np.zeros(most), np.full(most, -(1 << 30))
     recent = np.zeros(most)
-    n_chains, n_nodes, active_from = 0, 0, 0
+    n_chains, n_nodes = 0, 0
     node = np.zeros((4096, 4), dtype=np.int64)
     node_u, node_bits = np.zeros(4096), np.zeros(4096, dtype=np.uint64)
     active = np.zeros(most, dtype=np.int64)

@@ -41,4 +41,5 @@ def subdivide(points: NDArray[Any], spacing: float, finest: float) -> NDArray[np
     parts = max(1, int(np.ceil(spacing / finest - 1e-6)))
     offset = ((np.arange(parts) + 0.5) / parts - 0.5) * spacing
     shifts = np.array(list(product(offset, offset, offset)))
-    return (points[:, None, :].astype(np.float64) + shifts[None]).reshape(-1, 3)
+    centres: NDArray[np.float64] = points[:, None, :].astype(np.float64) + shifts[None]
+    return centres.reshape(-1, 3)

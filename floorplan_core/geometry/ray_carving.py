@@ -44,7 +44,7 @@ class MissMap:
     def carve(
         self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
     ) -> None:
-        """Cast a ray from each point's sensor origin to the point; the voxel of the point itself is not counted."""
+        """Cast a ray from each point's sensor origin to the point; the point's own voxel is not counted."""
         start = 0
         while start < len(points):
             start, self._used = _carve(
@@ -77,10 +77,22 @@ class MissMap:
         The map is sampled at the cell centres of a grid in another frame: ``rotation`` takes local to grid
         coordinates; column [iy, ix] starts at ``origin + cell * [ix, iy]``, level k at ``z0 + k * cell``.
         """
-        return _column_bits(
-            self._keys, self._ids, self._pool, self.size, np.ascontiguousarray(rotation), origin, cell,
-            shape[0], shape[1], z0, levels, least[0], least[1],
-        )  # fmt: skip
+        two_words: tuple[NDArray[np.uint64], NDArray[np.uint64]] = _column_bits(
+            self._keys,
+            self._ids,
+            self._pool,
+            self.size,
+            np.ascontiguousarray(rotation),
+            origin,
+            cell,
+            shape[0],
+            shape[1],
+            z0,
+            levels,
+            least[0],
+            least[1],
+        )
+        return two_words
 
 
 @njit(cache=True, inline="always")

@@ -15,7 +15,7 @@ Bits = NDArray[np.uint64]
 
 @dataclass(frozen=True)
 class Evidence:
-    """Surfels in the manhattan frame, and two grids of columns whose bits are height levels above the floor."""
+    """Surfels in the manhattan frame, and grids of columns whose bits are height levels above the floor."""
 
     frame: ManhattanFrame
     xyz: Float  # (N, 3) metres, manhattan frame; z above the floor

@@ -88,7 +88,8 @@ def _matrices(rows: Float) -> Float:
 
 def _table(name: str, text: str) -> tuple[Float, list[int]]:
     """All rows of numbers and the lines on which they stand; as many columns on each."""
-    rows, lines = [], []
+    rows: list[list[float]] = []
+    lines: list[int] = []
     for number, row in _rows(name, text):
         if rows and len(row) != len(rows[0]):
             raise InputError(

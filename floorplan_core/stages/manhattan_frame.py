@@ -80,7 +80,7 @@ def _gravity(normals: CellNormals) -> Float:
     n = normals.normal * np.where(normals.normal[:, 2:] < 0, -1.0, 1.0)
     near = n[:, 2] > math.cos(_UP_CONE)
     n, w = n[near], normals.weight[near]
-    up = np.array([0.0, 0.0, 1.0])
+    up: Float = np.array([0.0, 0.0, 1.0])
     if w.sum() < 50:  # nothing horizontal was seen: trust the file
         return up
     bins = np.round(n[:, :2] / 0.05).astype(int)
