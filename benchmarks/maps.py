@@ -1,9 +1,10 @@
 """Rooms of occupancy grid maps against their hand-made segmentation: F1, IoU and seconds a map.
 
-The benchmark of Bormann et al. (8 of its 20 maps, beside the checkout), plain and with furniture. The truth of
-a map are the connected white areas of its segmentation image; areas below ``SPECK`` are dots of its drawing. A
-region is right when its IoU with a true room exceeds 0.5. The settings were chosen on the maps of ``TUNED``
-only. Seconds are wall time; the CPU time of the median map stands beside them, for machines that are busy.
+The benchmark of Bormann et al. (8 of its 20 maps, beside the checkout), plain and with furniture. The truth
+of a map are the connected white areas of its segmentation image; areas below ``SPECK`` are dots of its
+drawing. A region is right when its IoU with a true room exceeds 0.5. The settings were chosen on the maps of
+``TUNED`` only. Seconds are wall time; the CPU time of the median map stands beside them, for machines that
+are busy.
 """
 
 from __future__ import annotations

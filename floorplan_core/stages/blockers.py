@@ -46,9 +46,9 @@ def remove_beams(
 ) -> tuple[LayoutPlane, ...]:
     """Cut from the wall runs what is a beam under the ceiling: it spans from one crossing wall to another.
 
-    A lintel rests on wall that ends beside the opening; a beam rests on walls that go on in front of and behind
-    it, or on nothing that stands in its own plane. Only gaps wider than ``widest_lintel`` (metres) are judged;
-    below ``shallow`` metres of depth one such end is enough.
+    A lintel rests on wall that ends beside the opening; a beam rests on walls that go on in front of and
+    behind it, or on nothing that stands in its own plane. Only gaps wider than ``widest_lintel`` (metres) are
+    judged; below ``shallow`` metres of depth one such end is enough.
     """
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
     out = []

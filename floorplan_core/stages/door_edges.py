@@ -1,8 +1,8 @@
 """The edges of doors from the points themselves: widths that do not know the histogram's bins.
 
 Inside the thickness of a wall the only surfaces are the reveals of its openings: they face each other across
-the door, and their median is its edge. Where none was seen, the edge is where the wall's face ends. The lowest
-surface above the passage is the lintel. Cost: one pass over the surfels.
+the door, and their median is its edge. Where none was seen, the edge is where the wall's face ends. The
+lowest surface above the passage is the lintel. Cost: one pass over the surfels.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Layout planes: the minimum set of infinite planes that explains the structural segments (paper, section 3).
 
 In: segments, the rows in which each was seen, and the voxel columns. Out: planes with their offset (the mean
-of their segments, weighted by what supports them), and a profile along each plane: where wall was seen low and
-high, and where free space passes through. From the profile come the runs that are wall: seen, above a lintel,
-or hidden between two seen parts. Cost: linear in segments times the length of the building.
+of their segments, weighted by what supports them), and a profile along each plane: where wall was seen low
+and high, and where free space passes through. From the profile come the runs that are wall: seen, above a
+lintel, or hidden between two seen parts. Cost: linear in segments times the length of the building.
 """
 
 from __future__ import annotations
@@ -63,7 +63,8 @@ def find_planes(
 def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:
     """Ids of the planes that lie in a recess of another: window panes, shut leaves, niches in a wall.
 
-    Nearly all that was seen of such a plane is behind wall of the same facing at most ``depth`` metres in front.
+    Nearly all that was seen of such a plane is behind wall of the same facing at most ``depth`` metres in
+    front.
     """
     out = set()
     for plane in planes:

@@ -1,10 +1,11 @@
 """Layout segments: observed, bounded patches of structural surfaces (the first input of the paper, section 3).
 
 In: :class:`Evidence`. Out: segments of each facing, structural or not. For each facing only the points seen
-from its side count, which keeps the two faces of a thin wall apart; without sensor origins the side comes from
-where the free space is. Surfaces are found where columns line up along the wall, linked along it, and their
-offset is fitted to the surfels themselves, so that it does not know the grid. Structure is told from furniture
-by what reaches above furniture, touches the ceiling, or is looked over. Cost: linear in surfels and columns.
+from its side count, which keeps the two faces of a thin wall apart; without sensor origins the side comes
+from where the free space is. Surfaces are found where columns line up along the wall, linked along it, and
+their offset is fitted to the surfels themselves, so that it does not know the grid. Structure is told from
+furniture by what reaches above furniture, touches the ceiling, or is looked over. Cost: linear in surfels and
+columns.
 """
 
 from __future__ import annotations

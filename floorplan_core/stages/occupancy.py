@@ -63,7 +63,8 @@ def _indoors(
 ) -> Mask:
     """The free cells in patches that are large enough and not outside.
 
-    Inside is where the sensor was, what lies under ceiling, and what a door joins to the inside over seen floor.
+    Inside is where the sensor was, what lies under ceiling, and what a door joins to the inside over seen
+    floor.
     """
     import cv2
 

@@ -1,7 +1,8 @@
 """Which rectangles of the cover make one region: those that overlap, or meet where there is no wall.
 
-Planes of opposite facing rarely coincide, so two rectangles of one room may meet in a border a few centimetres
-wide; an open border is bridged. Cost: pairs of rectangles by sorting out with arrays, then walls near a border.
+Planes of opposite facing rarely coincide, so two rectangles of one room may meet in a border a few
+centimetres wide; an open border is bridged. Cost: pairs of rectangles by sorting out with arrays, then walls
+near a border.
 """
 
 from __future__ import annotations

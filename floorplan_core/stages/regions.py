@@ -1,10 +1,10 @@
 """Regions: connected unions of the chosen rectangles (paper, section "Layout Estimation").
 
 In: the cover, planes, segments, doors and the grid. Out: disjoint regions with their sides. Rectangles that
-overlap belong together; every rectangle is free of walls and doors, so their union is too. The sides then move
-from the infinite planes to the surfaces that were seen along them, so that dimensions come from points. What is
-left of an overlap between two regions goes to the one with more evidence. Cost: quadratic in the number of
-rectangles of one neighbourhood, otherwise linear.
+overlap belong together; every rectangle is free of walls and doors, so their union is too. The sides then
+move from the infinite planes to the surfaces that were seen along them, so that dimensions come from points.
+What is left of an overlap between two regions goes to the one with more evidence. Cost: quadratic in the
+number of rectangles of one neighbourhood, otherwise linear.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """What no valid rectangle covers: planes at the edge of what was seen, so that no room is silently lost.
 
 A room with an unseen side is covered only if another plane of the building can stand in (the paper's rooms 6
-and 7). Where none can, a speculated plane is put at the frontier of each uncovered patch of free space, and the
-patch is covered with its help. What even then stays uncovered is reported by the cover.
+and 7). Where none can, a speculated plane is put at the frontier of each uncovered patch of free space, and
+the patch is covered with its help. What even then stays uncovered is reported by the cover.
 """
 
 from __future__ import annotations

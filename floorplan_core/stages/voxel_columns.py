@@ -1,8 +1,8 @@
 """The voxel map in the manhattan frame: free by ray casting, occupied, unobserved (input of the paper, section 3).
 
 In: surfels, the ray counts and the frame. Out: :class:`Evidence`, whose columns hold a bit for each voxel of
-0.1 m. Where the sensor's origins are unknown, a voxel is free if it lies between a seen floor (or ceiling) and
-the first surface above (below) it. Cost: one pass over surfels and one over the columns.
+0.1 m. Where the sensor's origins are unknown, a voxel is free if it lies between a seen floor (or ceiling)
+and the first surface above (below) it. Cost: one pass over surfels and one over the columns.
 """
 
 from __future__ import annotations
