@@ -262,7 +262,7 @@ class MapsConfig(Section):
 
 
 class Config(Section):
-    """All settings. ``Config()`` holds the defaults, ``Config.load`` reads YAML, ``with_values`` overrides."""
+    """All settings. ``Config()`` holds the defaults, ``Config.load`` reads YAML; see also ``with_values``."""
 
     input: InputConfig = InputConfig()
     frame: FrameConfig = FrameConfig()

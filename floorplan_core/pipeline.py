@@ -150,7 +150,7 @@ class FloorPlanner:
             self._begin()
 
     def _begin(self) -> None:
-        """Decide on the first points of the run, however they were cut, whether it is a voxel map; add them."""
+        """Decide on the run's first points, however they were cut, whether it is a voxel map; add them."""
         waiting, self._waiting = self._waiting, []
         if waiting:
             self._lattice = lattice_spacing(np.concatenate([w[0] for w in waiting])[:LATTICE_SAMPLE])
@@ -180,14 +180,14 @@ class FloorPlanner:
     def plan(self, given: Sequence[object] = ()) -> FloorPlan:
         """The floor plan of all that was integrated so far; raises :class:`NoPlanError` where there is none.
 
-        :param given: results of the first stages of an earlier run, in their order; they are taken as they are
-            (:mod:`floorplan_core.restart`).
+        :param given: results of the first stages of an earlier run, in their order; they are taken as they
+            are (:mod:`floorplan_core.restart`).
         """
         self._begin()
         if not given and len(self._surfels) < MIN_SURFELS:
             raise NoPlanError(
-                f"Too little to make a plan of: {self._surfels.points} points in {len(self._surfels)} voxels of "
-                f"{self._surfels.size:g} m; check the unit (--unit) or give more scans."
+                f"Too little to make a plan of: {self._surfels.points} points in {len(self._surfels)} voxels "
+                f"of {self._surfels.size:g} m; check the unit (--unit) or give more scans."
             )
         config, warnings = self.config, list[str]()
         seconds = {"integrate": self.seconds.get("integrate", 0.0)}
@@ -250,9 +250,23 @@ class FloorPlanner:
         for text in warnings:
             self.observer.warning(text)
         return FloorPlan(
-            frame, self.local_frame, segments, planes, doors, grid, candidates, cover, regions, points,
-            evidence.path, self.source, self._surfels.points, config, tuple(warnings), seconds,
-        )  # fmt: skip
+            frame,
+            self.local_frame,
+            segments,
+            planes,
+            doors,
+            grid,
+            candidates,
+            cover,
+            regions,
+            points,
+            evidence.path,
+            self.source,
+            self._surfels.points,
+            config,
+            tuple(warnings),
+            seconds,
+        )
 
     def _classifier(self) -> RegionClassifier:
         from floorplan_core.stages.labels import PaperClassifier
@@ -274,9 +288,13 @@ def _candidates(
 
 
 def _cover_the_rest(
-    planes: tuple[LayoutPlane, ...], paired: list[LayoutPlane], walls: Float, cover: RectangleCover,
-    grid: OccupancyGrid, config: Config,
-) -> tuple[tuple[LayoutPlane, ...], RectangleCover]:  # fmt: skip
+    planes: tuple[LayoutPlane, ...],
+    paired: list[LayoutPlane],
+    walls: Float,
+    cover: RectangleCover,
+    grid: OccupancyGrid,
+    config: Config,
+) -> tuple[tuple[LayoutPlane, ...], RectangleCover]:
     """Cover what is left with the help of speculated planes at its frontier."""
     from dataclasses import replace
 

@@ -29,7 +29,7 @@ class CellNormals:
 
 
 def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int = 20_000) -> CellNormals:
-    """Fit a plane in each cell of side ``cell`` (metres); keep those thinner than ``planarity`` times the width.
+    """A plane in each cell of side ``cell`` (metres); kept when thinner than ``planarity`` times its width.
 
     With more than ``most`` expected cells only every k-th (by a hash of its place) is used.
     """

@@ -12,7 +12,7 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CandidateSet:
-    """The valid rectangles of R = Px x Py; ``k`` spans x_plus[i0] .. x_minus[i1], y_plus[j0] .. y_minus[j1]."""
+    """The valid rectangles of R = Px x Py; k spans x_plus[i0] .. x_minus[i1], y_plus[j0] .. y_minus[j1]."""
 
     x_plus: Float  # sorted offsets of east-facing planes, metres, manhattan frame
     x_minus: Float  # sorted offsets of west-facing planes

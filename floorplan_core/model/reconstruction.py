@@ -1,4 +1,4 @@
-"""What a reader hands over: points in chunks, the sensor's path where known, how the file's axes were read."""
+"""What a reader hands over: points in chunks, the sensor's path where known, how the axes were read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What no rectangle may hold in its interior: wall runs and doors, closed at the corners (prunings 3 and 4)."""
+"""What no rectangle may hold inside: wall runs and doors, closed at the corners (prunings 3 and 4)."""
 
 from __future__ import annotations
 
@@ -26,8 +26,9 @@ def crossing_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
 
 
 def crossing_offsets(plane: LayoutPlane, others: Float) -> Float:
-    """(M,) where along ``plane`` the wall runs ``others`` (K, 3), of the other axis, cross or nearly touch it."""
-    return others[(others[:, 1] - _TOUCH <= plane.offset) & (others[:, 2] + _TOUCH >= plane.offset), 0]
+    """(M,) where along ``plane`` the wall runs ``others`` (K, 3) of the other axis cross or nearly touch it."""
+    near = (others[:, 1] - _TOUCH <= plane.offset) & (others[:, 2] + _TOUCH >= plane.offset)
+    return np.asarray(others[near, 0])
 
 
 def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:

@@ -53,7 +53,7 @@ def _window(door: Door) -> tuple[float, float, float, float]:
 
 @njit(cache=True, nogil=True)
 def _collect(xyz, boxes, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
-    """Points in boxes: the box and the point of each hit. A grid of marked cells answers most points at once."""
+    """Points in boxes: the box and the point of each hit. A grid of marked cells answers for most points."""
     marked = np.zeros((ny, nx), dtype=np.bool_)
     for b in range(len(boxes)):
         for iy in range(
@@ -92,7 +92,7 @@ def _refined(door: Door, sign: int, xyz: Float) -> Door:
 
 
 def _reveal(v: Float, edge: float) -> float:
-    """The densest 3 cm of the surfaces within reach of an edge, then their median; the edge where there are none."""
+    """The median of the densest 3 cm of the surfaces within reach of an edge; the edge where there are none."""
     near = np.sort(v[np.abs(v - edge) < _AROUND])
     if len(near) < _ENOUGH:
         return edge

@@ -91,7 +91,7 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
     sigma = max(config.smoothing / profile.step, 0.5)
     reach = max(2, round(4 * sigma))
     x = np.arange(-reach, reach + 1)
-    kernel = -x * np.exp(-0.5 * (x / sigma) ** 2)
+    kernel: Float = -x * np.exp(-0.5 * (x / sigma) ** 2)
     kernel /= kernel[x < 0].sum()  # so that a step from 0 to 1 peaks at 1
     gradient = np.convolve(histogram, kernel, mode="same")
     best, width = np.zeros(len(histogram)), np.zeros(len(histogram))

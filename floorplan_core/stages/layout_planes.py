@@ -33,9 +33,12 @@ _DEPTH = 0.4  # m behind a surface that must be free for a passage through the w
 
 
 def find_planes(
-    segments: tuple[LayoutSegment, ...], rows: dict[str, SegmentRows], evidence: Evidence, config: PlanesConfig,
+    segments: tuple[LayoutSegment, ...],
+    rows: dict[str, SegmentRows],
+    evidence: Evidence,
+    config: PlanesConfig,
     doors: DoorsConfig,
-) -> tuple[tuple[LayoutSegment, ...], tuple[LayoutPlane, ...]]:  # fmt: skip
+) -> tuple[tuple[LayoutSegment, ...], tuple[LayoutPlane, ...]]:
     """The planes, and the segments with the plane that explains each."""
     named: dict[str, LayoutSegment] = {s.id: s for s in segments}
     planes: list[LayoutPlane] = []
@@ -95,9 +98,15 @@ def _covered(spans: Float, runs: Float) -> float:
 
 
 def _plane(
-    name: str, facing: Facing, members: list[LayoutSegment], wall: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
-    config: PlanesConfig, doors: DoorsConfig,
-) -> LayoutPlane:  # fmt: skip
+    name: str,
+    facing: Facing,
+    members: list[LayoutSegment],
+    wall: list[LayoutSegment],
+    rows: dict[str, SegmentRows],
+    evidence: Evidence,
+    config: PlanesConfig,
+    doors: DoorsConfig,
+) -> LayoutPlane:
     weight = np.array([s.area for s in members])
     offset = float(np.average([s.offset for s in members], weights=weight))
     residual = float(
@@ -123,7 +132,7 @@ def _plane(
 
 
 def _own_part(runs: Float, observed: Float) -> Float:
-    """The runs from the first to the last place where this very plane was seen; the rest is another's wall."""
+    """The runs from the first to the last place where this very plane was seen; the rest is of others."""
     kept = []
     for start, end in runs:
         mine = observed[(observed[:, 1] > start) & (observed[:, 0] < end)]
@@ -133,9 +142,13 @@ def _own_part(runs: Float, observed: Float) -> Float:
 
 
 def _profile(
-    facing: Facing, offset: float, members: list[LayoutSegment], rows: dict[str, SegmentRows], evidence: Evidence,
+    facing: Facing,
+    offset: float,
+    members: list[LayoutSegment],
+    rows: dict[str, SegmentRows],
+    evidence: Evidence,
     doors: DoorsConfig,
-) -> WallProfile:  # fmt: skip
+) -> WallProfile:
     """What was seen along the plane, for every fine cell of the building's extent."""
     across = facing.axis
     bins = 2 * (evidence.shape[0] if across == 0 else evidence.shape[1])
@@ -144,12 +157,11 @@ def _profile(
         np.bitwise_or.at(bits, rows[segment.id].row, rows[segment.id].bits)
     low_mask = height_mask(_LOW_FROM, doors.crop_height)
     high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
-    low = count_bits(bits & low_mask) / int(count_bits(low_mask))
-    high = count_bits(bits & high_mask) * LEVEL
+    low: Float = count_bits(bits & low_mask) / int(low_mask).bit_count()
+    high: Float = count_bits(bits & high_mask) * LEVEL
     through = _through(facing, offset, evidence)
-    if (
-        not evidence.viewpoints
-    ):  # free space is inferred from patches of floor and ceiling: spread it over the gaps
+    if not evidence.viewpoints:
+        # Free space is inferred from patches of floor and ceiling: spread it over the gaps.
         reach = round(_PATCHY / evidence.fine)
         through = np.lib.stride_tricks.sliding_window_view(np.pad(through, reach), 2 * reach + 1).max(axis=1)
         through = np.where(low > 0, 0.0, through)
@@ -157,7 +169,7 @@ def _profile(
 
 
 def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
-    """(bins,) share of the passage heights at which all cells from just in front to behind the wall are free."""
+    """(bins,) share of the passage heights at which all cells from just before to behind the wall are free."""
     free = evidence.free if facing.axis == 0 else evidence.free.T
     mask = height_mask(*_PASSAGE)
     steps = np.arange(-_DEPTH, 0.11, evidence.cell)
@@ -165,7 +177,8 @@ def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
     columns = np.unique(columns[(columns >= 0) & (columns < free.shape[1])])
     if len(columns) == 0:
         return np.zeros(2 * free.shape[0])
-    share = count_bits(np.bitwise_and.reduce(free[:, columns], axis=1) & mask) / int(count_bits(mask))
+    through = np.bitwise_and.reduce(free[:, columns], axis=1) & mask
+    share: Float = count_bits(through) / int(mask).bit_count()
     return np.repeat(share, 2)
 
 

@@ -1,4 +1,4 @@
-"""Layout segments: observed, bounded patches of structural surfaces (the first input of the paper, section 3).
+"""Layout segments: observed, bounded patches of structural surfaces (first input of the paper, section 3).
 
 In: :class:`Evidence`. Out: segments of each facing, structural or not. For each facing only the points seen
 from its side count, which keeps the two faces of a thin wall apart; without sensor origins the side comes
@@ -167,7 +167,7 @@ def wall_band(evidence: Evidence) -> np.uint64:
 def _faces_free_space(
     evidence: Evidence, facing: Facing, u: Float, v: Float, skin: int = 0
 ) -> NDArray[np.bool_]:
-    """(N,) True where the space in front of a surfel is open: free space is seen there, or at least not behind.
+    """(N,) True where the space in front of a surfel is open: free there, or at least not free behind.
 
     ``skin`` cells just in front may hold the surface's own noise.
     """

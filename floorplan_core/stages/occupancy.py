@@ -38,8 +38,8 @@ def slice_map(
     universe = _indoors(states == FREE, evidence, planes, doors, config)
     if not universe.any():
         raise NoPlanError(
-            f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height to a "
-            "height that the sensor saw through, or give the trajectory (--trajectory)."
+            f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height to "
+            "a height that the sensor saw through, or give the trajectory (--trajectory)."
         )
     return OccupancyGrid(evidence.origin, evidence.cell, states, universe, round(height, 3))
 
@@ -140,7 +140,7 @@ def _labels_at(label: NDArray[np.int32], xy: Float, evidence: Evidence) -> NDArr
     """Labels of the cells at (M, 2) positions; those beyond the grid are left out."""
     cells = np.floor((xy - evidence.origin) / evidence.cell).astype(int)
     inside = ((cells >= 0) & (cells < np.array(label.shape)[::-1])).all(axis=1)
-    found = label[cells[inside, 1], cells[inside, 0]]
+    found: NDArray[np.int32] = label[cells[inside, 1], cells[inside, 0]]
     return found[found > 0]
 
 
@@ -165,4 +165,5 @@ def _any_hit(evidence: Evidence, mask: np.uint64) -> Mask:
 def free_share(evidence: Evidence, low: float, high: float) -> Float:
     """(ny, nx) share of the heights between ``low`` and ``high`` (metres) that is free."""
     mask = height_mask(low, high)
-    return count_bits(evidence.free & mask) / max(int(count_bits(mask)), 1)
+    share: Float = count_bits(evidence.free & mask) / max(int(mask).bit_count(), 1)
+    return share

@@ -63,7 +63,7 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
 
 
 def _open_border(a: Float, b: Float, axis: int, walls: Float) -> list[Float]:
-    """Boxes across the parts of the border of two rectangles that are neither wall nor door, if wide enough."""
+    """Boxes across the parts of the border of two rectangles that are not wall or door, if wide enough."""
     near = sorted((max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])))
     low, high = max(a[1 - axis], b[1 - axis]), min(a[3 - axis], b[3 - axis])
     hit = walls[(walls[:, 0] > near[0] - _NEAR) & (walls[:, 0] < near[1] + _NEAR)]

@@ -38,7 +38,7 @@ class WallSurfaces:
         return Facing.NORTH if b[0] > a[0] else Facing.SOUTH
 
     def along(self, a: Float, b: Float) -> tuple[Float, list[str]]:
-        """(K, 3) offset, start and end (clipped to the side) of the surfaces seen along it, and their planes."""
+        """(K, 3) offset, start, end (clipped to the side) of the surfaces seen along it, and their planes."""
         data, planes = self._table[self.facing(a, b)]
         across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
         low, high = sorted((a[1 - across], b[1 - across]))

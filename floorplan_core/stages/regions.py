@@ -30,9 +30,13 @@ _PROBES = (0.15, 0.3, 0.5)  # m from the wall's face, where the region behind a 
 
 
 def build_regions(
-    cover: RectangleCover, planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment], doors: Sequence[Door],
-    grid: OccupancyGrid, config: RegionsConfig,
-) -> tuple[Region, ...]:  # fmt: skip
+    cover: RectangleCover,
+    planes: Sequence[LayoutPlane],
+    segments: Sequence[LayoutSegment],
+    doors: Sequence[Door],
+    grid: OccupancyGrid,
+    config: RegionsConfig,
+) -> tuple[Region, ...]:
     """The regions in reading order (top to bottom, left to right), without label or turning distance."""
     groups = connected_groups(cover.bounds, separators(planes, doors))
     shapes = [_union(cover.bounds[rows], bridges, config.sliver) for rows, bridges in groups]

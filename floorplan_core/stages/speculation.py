@@ -24,7 +24,7 @@ def frontier_planes(
     planes: Sequence[LayoutPlane],
     walls: NDArray[np.float64],
 ) -> tuple[LayoutPlane, ...]:
-    """Speculated planes along the straight frontiers of the uncovered patches and at the wall ends beside them.
+    """Speculated planes on the straight frontiers of the uncovered patches and at the wall ends beside them.
 
     :param walls: (B, 4) blockers; a wall that ends in the open keeps rectangles from passing its end.
     """

@@ -1,4 +1,4 @@
-"""The voxel map in the manhattan frame: free by ray casting, occupied, unobserved (input of the paper, section 3).
+"""The voxel map in the manhattan frame: free by ray casting, occupied, unobserved (paper, section 3).
 
 In: surfels, the ray counts and the frame. Out: :class:`Evidence`, whose columns hold a bit for each voxel of
 0.1 m. Where the sensor's origins are unknown, a voxel is free if it lies between a seen floor (or ceiling)
@@ -50,9 +50,21 @@ def gather_evidence(
         occupied = surface
         free = _free_between_floor_and_ceiling(surface, frame)
     return Evidence(
-        frame, xyz, surfels.count, spread, view, surfels.size, origin, fine, hits, cell, free, occupied, path_xy,
+        frame,
+        xyz,
+        surfels.count,
+        spread,
+        view,
+        surfels.size,
+        origin,
+        fine,
+        hits,
+        cell,
+        free,
+        occupied,
+        path_xy,
         viewpoints,
-    )  # fmt: skip
+    )
 
 
 @njit(cache=True, nogil=True)
