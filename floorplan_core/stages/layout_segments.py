@@ -175,11 +175,12 @@ def _faces_free_space(
     band = height_mask(0.5, 1.9)
     tall = count_bits(evidence.hits & wall_band(evidence)) >= 4
     free = np.repeat(np.repeat((evidence.free & band) != 0, 2, axis=0), 2, axis=1)
-    grid = (lambda m: m) if a == 0 else (lambda m: m.T)
+    if a == 1:
+        tall, free = tall.T, free.T
     return np.asarray(
         _first_in_front(
             u, v, evidence.origin[a], evidence.origin[b], evidence.fine, facing.sign, skin,
-            np.ascontiguousarray(grid(tall)), np.ascontiguousarray(grid(free)),
+            np.ascontiguousarray(tall), np.ascontiguousarray(free),
         )
     )  # fmt: skip
 
