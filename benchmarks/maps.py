@@ -61,10 +61,18 @@ def rooms() -> Outcome:
     measure(names[0], "plain")  # compiles the kernels
     scores = [measure(name, variant) for variant in VARIANTS for name in names]
     rows = [
-        (f"{s.name} {s.variant}", f"{s.f1:.3f}", f"{s.precision:.3f}", f"{s.recall:.3f}", f"{s.iou:.3f}",
-         f"{s.regions}/{s.rooms}", f"{s.seconds:.2f}", "yes" if s.name in TUNED else "no")
+        (
+            f"{s.name} {s.variant}",
+            f"{s.f1:.3f}",
+            f"{s.precision:.3f}",
+            f"{s.recall:.3f}",
+            f"{s.iou:.3f}",
+            f"{s.regions}/{s.rooms}",
+            f"{s.seconds:.2f}",
+            "yes" if s.name in TUNED else "no",
+        )
         for s in scores
-    ]  # fmt: skip
+    ]
     header = ("map", "F1", "precision", "recall", "mean IoU", "regions/rooms", "s", "tuned on")
     note = "Best of four classical methods on these maps: " + ", ".join(f"{v} {k}" for k, v in PEERS.items())
     return Outcome(title, header, rows, _figures(scores), (f"{note}.",))

@@ -41,6 +41,9 @@ def stages() -> Outcome:
     }
     figures |= {f"{name} s": s for name, s in plan.seconds.items()}
     return Outcome(
-        f"{title} (target {TARGET:g} times the read)", ("stage", "s", "x read"), rows, figures,
+        f"{title} (target {TARGET:g} times the read)",
+        ("stage", "s", "x read"),
+        rows,
+        figures,
         ("Peak memory includes Open3D itself, which the job does not load.",),
-    )  # fmt: skip
+    )

@@ -119,10 +119,24 @@ def plan_grid_map(
     for text in warnings:
         observer.warning(text)
     return FloorPlan(
-        ground.frame, LocalFrame(), segments, _all_planes(planes, solved), doors, grid,
-        join_candidates(sets), cover, regions, _wall_points(boundary, grid), np.zeros((0, 2)), grid_map.name,
-        int(np.count_nonzero(grid_map.states)), config, warnings, seconds, raster=grid_map.raster,
-    )  # fmt: skip
+        ground.frame,
+        LocalFrame(),
+        segments,
+        _all_planes(planes, solved),
+        doors,
+        grid,
+        join_candidates(sets),
+        cover,
+        regions,
+        _wall_points(boundary, grid),
+        np.zeros((0, 2)),
+        grid_map.name,
+        int(np.count_nonzero(grid_map.states)),
+        config,
+        warnings,
+        seconds,
+        raster=grid_map.raster,
+    )
 
 
 def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved:
@@ -142,9 +156,12 @@ def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved
 
 
 def _regions(
-    solved: list[_Solved], first: NDArray[np.int64], doors: tuple[Door, ...], grid: OccupancyGrid,
+    solved: list[_Solved],
+    first: NDArray[np.int64],
+    doors: tuple[Door, ...],
+    grid: OccupancyGrid,
     config: Config,
-) -> tuple[tuple[Region, ...], int]:  # fmt: skip
+) -> tuple[tuple[Region, ...], int]:
     """One region for each space, by its rectangles or by its outline, and how many are outlines."""
     found: list[Region] = []
     drawn = 0
@@ -201,7 +218,7 @@ def _classifier(config: Config) -> RegionClassifier:
 
 def _warnings(
     ground: MapFloor, regions: tuple[Region, ...], drawn: int, askew: int, config: Config
-) -> tuple[str, ...]:  # fmt: skip
+) -> tuple[str, ...]:
     """What the user should know: walls at other angles, and free space that is in no region."""
     out = []
     if ground.frame.support < config.frame.min_support:

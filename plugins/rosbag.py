@@ -171,9 +171,14 @@ class _Placed:
 
 
 def _place(
-    name: str, frame: str, seconds: Float, tree: FrameTree, tracks: dict[str, Any], given: Trajectory | None,
+    name: str,
+    frame: str,
+    seconds: Float,
+    tree: FrameTree,
+    tracks: dict[str, Any],
+    given: Trajectory | None,
     listed: str,
-) -> _Placed:  # fmt: skip
+) -> _Placed:
     """Where the sensor was at each message: as asked, by the transforms, by a track, or not at all."""
     in_world = frame in WORLD_FRAMES
     if given is not None:
@@ -224,9 +229,14 @@ def _interpolated(stamps: Float, poses: Float, seconds: Float) -> tuple[Float, N
 
 
 def _run(
-    name: str, topic: str, msgtype: str, recorded: NDArray[np.int64], seconds: Float, placed: _Placed,
+    name: str,
+    topic: str,
+    msgtype: str,
+    recorded: NDArray[np.int64],
+    seconds: Float,
+    placed: _Placed,
     observer: Observer,
-) -> Run:  # fmt: skip
+) -> Run:
     """The scans that have a pose; :class:`InputError` where none has."""
     used = placed.known
     if not used.any():

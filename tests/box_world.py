@@ -53,9 +53,11 @@ def room(width: float, depth: float, thick: float = 0.2, ceiling: bool = True) -
     t = thick
     return [
         *slabs(-t, -t, width + t, depth + t, ceiling),
-        *wall(0, -t, 0, -t, depth + t), *wall(0, width, width + t, -t, depth + t),
-        *wall(1, -t, 0, 0, width), *wall(1, depth, depth + t, 0, width),
-    ]  # fmt: skip
+        *wall(0, -t, 0, -t, depth + t),
+        *wall(0, width, width + t, -t, depth + t),
+        *wall(1, -t, 0, 0, width),
+        *wall(1, depth, depth + t, 0, width),
+    ]
 
 
 def two_rooms(*openings: Opening, width: float = 4.0, depth: float = 5.0, thick: float = 0.1) -> list[Box]:
@@ -63,10 +65,12 @@ def two_rooms(*openings: Opening, width: float = 4.0, depth: float = 5.0, thick:
     far, t = 2 * width + thick, 0.2
     return [
         *slabs(-t, -t, far + t, depth + t),
-        *wall(0, -t, 0, -t, depth + t), *wall(0, far, far + t, -t, depth + t),
+        *wall(0, -t, 0, -t, depth + t),
+        *wall(0, far, far + t, -t, depth + t),
         *wall(0, width, width + thick, 0, depth, *openings),
-        *wall(1, -t, 0, 0, far), *wall(1, depth, depth + t, 0, far),
-    ]  # fmt: skip
+        *wall(1, -t, 0, 0, far),
+        *wall(1, depth, depth + t, 0, far),
+    ]
 
 
 def cast(boxes: Sequence[Box], origin: np.ndarray, directions: np.ndarray) -> np.ndarray:
@@ -136,9 +140,13 @@ def rotation(yaw_deg: float = 0.0, roll_deg: float = 0.0, pitch_deg: float = 0.0
 
 
 def survey(
-    boxes: Sequence[Box], places: Sequence[Sequence[float]], noise: float = 0.01, seed: int = 0,
-    rays: tuple[int, int] = (240, 80), turned: np.ndarray | None = None,
-) -> Survey:  # fmt: skip
+    boxes: Sequence[Box],
+    places: Sequence[Sequence[float]],
+    noise: float = 0.01,
+    seed: int = 0,
+    rays: tuple[int, int] = (240, 80),
+    turned: np.ndarray | None = None,
+) -> Survey:
     """Scans from ``places``, in a world turned by ``turned`` (building to world)."""
     rng = np.random.default_rng(seed)
     turned = np.eye(3) if turned is None else turned

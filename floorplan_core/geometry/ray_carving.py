@@ -48,9 +48,18 @@ class MissMap:
         start = 0
         while start < len(points):
             start, self._used = _carve(
-                points, scan, origins, self.size, limits[0], limits[1],
-                self._keys, self._ids, self._pool, self._used, start,
-            )  # fmt: skip
+                points,
+                scan,
+                origins,
+                self.size,
+                limits[0],
+                limits[1],
+                self._keys,
+                self._ids,
+                self._pool,
+                self._used,
+                start,
+            )
             if start < len(points):
                 self._grow()
 
@@ -126,9 +135,11 @@ def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used
         ex, ey, ez = int(np.floor(px)), int(np.floor(py)), int(np.floor(pz))
         x, y, z = int(np.floor(ox * ONE)), int(np.floor(oy * ONE)), int(np.floor(oz * ONE))
         entered = (
-            abs((ex >> 4) - (x >> BLOCK_SHIFT)) + abs((ey >> 4) - (y >> BLOCK_SHIFT))
-            + abs((ez >> 4) - (z >> BLOCK_SHIFT)) + 4
-        )  # fmt: skip
+            abs((ex >> 4) - (x >> BLOCK_SHIFT))
+            + abs((ey >> 4) - (y >> BLOCK_SHIFT))
+            + abs((ez >> 4) - (z >> BLOCK_SHIFT))
+            + 4
+        )
         if used + entered > len(pool):  # the caller makes room and resumes at this ray
             return i, used
         longest = max(abs(dx), abs(dy), abs(dz), 1e-9)

@@ -69,9 +69,19 @@ class SurfelMap:
         start = 0
         while start < len(points):
             start, self._used, added = _insert(
-                points, scan, origins, self.size, limits[0], limits[1],
-                self._table, self._row, self._keys, self._sums, self._used, start,
-            )  # fmt: skip
+                points,
+                scan,
+                origins,
+                self.size,
+                limits[0],
+                limits[1],
+                self._table,
+                self._row,
+                self._keys,
+                self._sums,
+                self._used,
+                start,
+            )
             self.points += added
             if start < len(points):
                 self._grow()

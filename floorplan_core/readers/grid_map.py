@@ -100,10 +100,14 @@ def _read_sheet(path: Path) -> _Sheet:
         x, y, yaw = (float(v) for v in data.get("origin", (0, 0, 0)))
         occupied, free = float(data.get("occupied_thresh", 0.65)), float(data.get("free_thresh", 0.196))
         sheet = _Sheet(
-            path.parent / str(data["image"]), float(data["resolution"]), (x, y, yaw),
-            bool(int(data.get("negate", 0))), occupied, free,
+            path.parent / str(data["image"]),
+            float(data["resolution"]),
+            (x, y, yaw),
+            bool(int(data.get("negate", 0))),
+            occupied,
+            free,
             scale=str(data.get("mode", "trinary")) == "scale",
-        )  # fmt: skip
+        )
     except (TypeError, ValueError) as error:
         raise InputError(f"{path.name} is a damaged map YAML: {str(error)[:100]}.") from error
     if not all(map(math.isfinite, (x, y, yaw, occupied, free))):

@@ -79,7 +79,13 @@ BENCH = Piece("bench", (1.0, 1.8), (0.35, 0.42), (0.42, 0.48))
 # What a use holds: pieces in order, each with its number per 10 m2 of floor (at least the first).
 INVENTORY: dict[str, tuple[tuple[Piece, float], ...]] = {
     "office": (
-        (DESK, 1.0), (CABINET, 0.5), (SHELF, 0.5), (DRAWERS, 0.4), (BOARD, 0.3), (PLANT, 0.3), (DIVIDER, 0.15)
+        (DESK, 1.0),
+        (CABINET, 0.5),
+        (SHELF, 0.5),
+        (DRAWERS, 0.4),
+        (BOARD, 0.3),
+        (PLANT, 0.3),
+        (DIVIDER, 0.15),
     ),
     "meeting room": ((TABLE, 0.3), (BOARD, 0.3), (CABINET, 0.25), (PLANT, 0.2), (LOCKER, 0.15), (DESK, 0.3)),
     "store": ((SHELF, 1.5), (LOCKER, 0.8), (DRAWERS, 0.8)),
@@ -90,4 +96,4 @@ INVENTORY: dict[str, tuple[tuple[Piece, float], ...]] = {
     "bedroom": ((BED, 0.7), (LOCKER, 0.7), (DRAWERS, 0.6), (DESK, 0.4)),
     "kitchen": ((KITCHEN, 1.0), (TABLE, 0.4), (CABINET, 0.5)),
     "living room": ((SOFA, 0.5), (TABLE, 0.25), (SHELF, 0.5), (CABINET, 0.3), (PLANT, 0.4), (DRAWERS, 0.3)),
-}  # fmt: skip
+}

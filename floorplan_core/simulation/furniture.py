@@ -63,10 +63,13 @@ class _Floor:
         """True where a piece of this height would stand in front of a window."""
         grown = hull + np.array([-0.1, -0.1, 0.1, 0.1])
         return any(
-            height > w.sill and grown[0] < w.bounds[2] and w.bounds[0] < grown[2]
-            and grown[1] < w.bounds[3] and w.bounds[1] < grown[3]
+            height > w.sill
+            and grown[0] < w.bounds[2]
+            and w.bounds[0] < grown[2]
+            and grown[1] < w.bounds[3]
+            and w.bounds[1] < grown[3]
             for w in self.windows
-        )  # fmt: skip
+        )
 
 
 def furnish(

@@ -234,10 +234,16 @@ def _weigh(
     elif max((left > 0.2).sum(), (right > 0.2).sum()) * profile.step >= 0.25:
         words.append("corner")
     return Door(
-        id="", planes=(plane.id,), axis=plane.facing.axis, offset=plane.offset, start=start, end=end,
+        id="",
+        planes=(plane.id,),
+        axis=plane.facing.axis,
+        offset=plane.offset,
+        start=start,
+        end=end,
         evidence=tuple(words),
-        confidence=_confidence(words, response), height=None,
-    )  # fmt: skip
+        confidence=_confidence(words, response),
+        height=None,
+    )
 
 
 def _confidence(words: Sequence[str], response: float) -> float:
@@ -287,7 +293,12 @@ def _merged(sure: Door, other: Door, both_faces: bool) -> Door:
     if not both_faces:
         return replace(sure, planes=(*sure.planes, *other.planes), evidence=words, confidence=confidence)
     return replace(
-        sure, planes=(*sure.planes, *other.planes), offset=(sure.offset + other.offset) / 2,
-        thickness=max(sure.thickness, abs(sure.offset - other.offset)), confidence=confidence,
-        start=(sure.start + other.start) / 2, end=(sure.end + other.end) / 2, evidence=tuple(words),
-    )  # fmt: skip
+        sure,
+        planes=(*sure.planes, *other.planes),
+        offset=(sure.offset + other.offset) / 2,
+        thickness=max(sure.thickness, abs(sure.offset - other.offset)),
+        confidence=confidence,
+        start=(sure.start + other.start) / 2,
+        end=(sure.end + other.end) / 2,
+        evidence=tuple(words),
+    )

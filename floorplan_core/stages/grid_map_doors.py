@@ -30,9 +30,12 @@ _NEAR_RUN = 0.6  # m between the opening and the wall run that it interrupts
 
 
 def grid_doors(
-    passages: Sequence[Passage], planes: Sequence[LayoutPlane], floor: Bool, grid: OccupancyGrid,
+    passages: Sequence[Passage],
+    planes: Sequence[LayoutPlane],
+    floor: Bool,
+    grid: OccupancyGrid,
     config: DoorsConfig,
-) -> tuple[tuple[Door, ...], int]:  # fmt: skip
+) -> tuple[tuple[Door, ...], int]:
     """The doors by axis, offset and start, and how many passages lie in walls at other angles."""
     found = [_door(p, planes, floor, grid, config) for p in passages]
     doors = sorted((d for d in found if d is not None), key=lambda d: (d.axis, d.offset, d.start))
@@ -58,11 +61,17 @@ def _door(
         return None  # the wall itself leans
     o = grid.origin
     return Door(
-        id="", planes=(), axis=axis, offset=float(o[axis] + ((near + far) / 2 + 0.5) * grid.cell),
-        start=float(o[1 - axis] + low * grid.cell), end=float(o[1 - axis] + high * grid.cell),
-        thickness=float((far - near) * grid.cell), evidence=_evidence(passage),
-        confidence=_confidence(passage), kind=_kind(passage, (high - low) * grid.cell, config),
-    )  # fmt: skip
+        id="",
+        planes=(),
+        axis=axis,
+        offset=float(o[axis] + ((near + far) / 2 + 0.5) * grid.cell),
+        start=float(o[1 - axis] + low * grid.cell),
+        end=float(o[1 - axis] + high * grid.cell),
+        thickness=float((far - near) * grid.cell),
+        evidence=_evidence(passage),
+        confidence=_confidence(passage),
+        kind=_kind(passage, (high - low) * grid.cell, config),
+    )
 
 
 def _jambs(cells: Bool, u: float, v: float, low: float, high: float) -> tuple[float, float]:

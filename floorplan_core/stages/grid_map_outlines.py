@@ -88,10 +88,17 @@ def outline_region(polygon: Any, grid: OccupancyGrid, rows: NDArray[np.int64]) -
     length = sum(s.length for s in sides)
     walled = sum(s.length * s.observed for s in sides) / length if length else 0.0
     return Region(
-        id="", name="", polygon=polygon, label="", free_cells=free, total_cells=total, turning_distance=0.0,
-        sides=sides, confidence=round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3),
+        id="",
+        name="",
+        polygon=polygon,
+        label="",
+        free_cells=free,
+        total_cells=total,
+        turning_distance=0.0,
+        sides=sides,
+        confidence=round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3),
         rectangles=rows,
-    )  # fmt: skip
+    )
 
 
 def _side(a: Float, b: Float, grid: OccupancyGrid, hole: bool) -> RegionSide:

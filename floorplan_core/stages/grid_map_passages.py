@@ -222,9 +222,16 @@ def _parts(
 
 
 def _mouth(
-    x: float, y: float, dx: float, dy: float, length: float, cut: Bool, gap: Float, cell: float,
+    x: float,
+    y: float,
+    dx: float,
+    dy: float,
+    length: float,
+    cut: Bool,
+    gap: Float,
+    cell: float,
     config: MapsConfig,
-) -> float | None:  # fmt: skip
+) -> float | None:
     """The ratio of a corridor's half width to the radius of the hall into which it opens, if it does."""
     reach = _HALL_REACH / cell + length
     halls = [hall_ahead(cut, gap, x, y, -s * dy, s * dx, reach) for s in (1.0, -1.0)]

@@ -55,9 +55,15 @@ class SpaceProblem:
 
 
 def space_problems(
-    spaces: Labels, floor: Bool, grid: OccupancyGrid, boundary: Boundary,
-    segments: Sequence[LayoutSegment], rows: Int, planes: Sequence[LayoutPlane], config: Config,
-) -> list[SpaceProblem]:  # fmt: skip
+    spaces: Labels,
+    floor: Bool,
+    grid: OccupancyGrid,
+    boundary: Boundary,
+    segments: Sequence[LayoutSegment],
+    rows: Int,
+    planes: Sequence[LayoutPlane],
+    config: Config,
+) -> list[SpaceProblem]:
     """All spaces in the order of their numbers; ``rows`` are the boundary's pieces behind ``segments``."""
     from scipy.ndimage import find_objects
 
@@ -71,9 +77,12 @@ def space_problems(
         window = _around(box, spaces.shape, grid.cell)
         mask = spaces[window] == number
         local = OccupancyGrid(
-            grid.origin + grid.cell * np.array([window[1].start, window[0].start]), grid.cell,
-            grid.states[window], mask & (grid.states[window] == FREE), grid.slice_height,
-        )  # fmt: skip
+            grid.origin + grid.cell * np.array([window[1].start, window[0].start]),
+            grid.cell,
+            grid.states[window],
+            mask & (grid.states[window] == FREE),
+            grid.slice_height,
+        )
         alien = ~mask & (floor[window] | (grid.states[window] == OCCUPIED))
         solid = [plane_of[name] for name in names]
         walls = mine.take(mine.bounds_space).boxes()
@@ -141,9 +150,11 @@ def join_candidates(sets: Sequence[CandidateSet]) -> CandidateSet:
 
 
 def join_covers(
-    covers: Sequence[RectangleCover], sets: Sequence[CandidateSet], problems: Sequence[SpaceProblem],
+    covers: Sequence[RectangleCover],
+    sets: Sequence[CandidateSet],
+    problems: Sequence[SpaceProblem],
     shape: tuple[int, ...],
-) -> tuple[RectangleCover, Int]:  # fmt: skip
+) -> tuple[RectangleCover, Int]:
     """The cover of the whole map, and the first row of each space in it."""
     before = np.cumsum([0, *(len(s) for s in sets)])
     chosen = [np.where(c.chosen >= 0, c.chosen + n, -1) for c, n in zip(covers, before, strict=False)]

@@ -144,9 +144,14 @@ def _straight_runs(along: Int, across: Int, space: Labels, reach: int) -> Int:
 
 
 def _summary(
-    facing: Facing, along: Int, line: Int, space: Labels, against: NDArray[np.int8], piece: Int,
+    facing: Facing,
+    along: Int,
+    line: Int,
+    space: Labels,
+    against: NDArray[np.int8],
+    piece: Int,
     grid: OccupancyGrid,
-) -> Boundary:  # fmt: skip
+) -> Boundary:
     """One row for each piece."""
     first = np.flatnonzero(np.diff(piece, prepend=-1))
     if len(first) == 0:
@@ -157,12 +162,15 @@ def _summary(
     deviation = np.maximum.reduceat(np.abs(line - np.repeat(mean, count.astype(int))), first)
     a, o = facing.axis, grid.origin
     return Boundary(
-        np.full(len(first), facing, dtype=np.int8), space[first], o[a] + mean * grid.cell,
+        np.full(len(first), facing, dtype=np.int8),
+        space[first],
+        o[a] + mean * grid.cell,
         deviation * grid.cell,
-        o[1 - a] + along[first] * grid.cell, o[1 - a] + (along[first] + count) * grid.cell,
+        o[1 - a] + along[first] * grid.cell,
+        o[1 - a] + (along[first] + count) * grid.cell,
         np.add.reduceat(against == WALL, first, dtype=np.float64) / count,
         np.add.reduceat(against == OPEN, first, dtype=np.float64) / count,
-    )  # fmt: skip
+    )
 
 
 def wall_segments(
@@ -177,12 +185,19 @@ def wall_segments(
 def _segment(name: str, boundary: Boundary, k: int, grid: OccupancyGrid) -> LayoutSegment:
     length = float(boundary.length[k])
     return LayoutSegment(
-        id=name, facing=Facing(int(boundary.facing[k])), offset=float(boundary.offset[k]),
-        start=float(boundary.start[k]), end=float(boundary.end[k]), z_min=0.0, z_max=0.0,
-        area=length * float(boundary.wall[k]), points=round(length / grid.cell),
-        residual=max(float(boundary.spread[k]), grid.cell / 2), sigma=grid.cell / math.sqrt(12.0),
+        id=name,
+        facing=Facing(int(boundary.facing[k])),
+        offset=float(boundary.offset[k]),
+        start=float(boundary.start[k]),
+        end=float(boundary.end[k]),
+        z_min=0.0,
+        z_max=0.0,
+        area=length * float(boundary.wall[k]),
+        points=round(length / grid.cell),
+        residual=max(float(boundary.spread[k]), grid.cell / 2),
+        sigma=grid.cell / math.sqrt(12.0),
         evidence=("straight boundary of free space",),
-    )  # fmt: skip
+    )
 
 
 def wall_planes(
@@ -212,6 +227,12 @@ def _plane(name: str, facing: Facing, segments: Sequence[LayoutSegment]) -> Layo
     runs = np.array([[s.start, s.end] for s in sorted(segments, key=lambda s: s.start)])
     residual = max(abs(s.offset - offset) + s.residual for s in segments)
     return LayoutPlane(
-        name, facing, offset, tuple(s.id for s in segments), float(sum(s.area for s in segments)), residual,
-        walls=runs, observed=runs,
-    )  # fmt: skip
+        name,
+        facing,
+        offset,
+        tuple(s.id for s in segments),
+        float(sum(s.area for s in segments)),
+        residual,
+        walls=runs,
+        observed=runs,
+    )

@@ -179,10 +179,17 @@ def _faces_free_space(
         tall, free = tall.T, free.T
     return np.asarray(
         _first_in_front(
-            u, v, evidence.origin[a], evidence.origin[b], evidence.fine, facing.sign, skin,
-            np.ascontiguousarray(tall), np.ascontiguousarray(free),
+            u,
+            v,
+            evidence.origin[a],
+            evidence.origin[b],
+            evidence.fine,
+            facing.sign,
+            skin,
+            np.ascontiguousarray(tall),
+            np.ascontiguousarray(free),
         )
-    )  # fmt: skip
+    )
 
 
 @njit(cache=True, nogil=True)
@@ -238,9 +245,20 @@ def _fit_histograms(
     low = _SKIRTING
     high = LEVEL * int(band).bit_length()
     hist, spread, points = _histograms(
-        u, v, evidence.xyz[:, 2], toward, evidence.count, evidence.spread[:, a], label, mean,
-        evidence.origin[a], evidence.origin[b], evidence.fine, low, high,
-    )  # fmt: skip
+        u,
+        v,
+        evidence.xyz[:, 2],
+        toward,
+        evidence.count,
+        evidence.spread[:, a],
+        label,
+        mean,
+        evidence.origin[a],
+        evidence.origin[b],
+        evidence.fine,
+        low,
+        high,
+    )
     return np.column_stack([mean, hist]), spread, points
 
 
@@ -284,9 +302,15 @@ def _robust_offset(histogram: Float) -> tuple[float, float, float]:
 
 
 def _segment(
-    evidence: Evidence, facing: Facing, surfaces: FacingSurfaces, mine: NDArray[np.int64], histogram: Float,
-    spread: float, points: float, config: SegmentsConfig,
-) -> tuple[LayoutSegment, SegmentRows] | None:  # fmt: skip
+    evidence: Evidence,
+    facing: Facing,
+    surfaces: FacingSurfaces,
+    mine: NDArray[np.int64],
+    histogram: Float,
+    spread: float,
+    points: float,
+    config: SegmentsConfig,
+) -> tuple[LayoutSegment, SegmentRows] | None:
     """A chain as a segment, or None where it is too small."""
     rows = surfaces.node[mine, 1]
     bits = surfaces.bits[mine] & wall_band(evidence)
@@ -301,19 +325,31 @@ def _segment(
     union = int(np.bitwise_or.reduce(bits))
     base = float(evidence.origin[1 - facing.axis])
     segment = LayoutSegment(
-        id="", facing=facing, offset=offset,
-        start=base + float(rows.min()) * fine, end=base + float(rows.max() + 1) * fine,
-        z_min=LEVEL * ((union & -union).bit_length() - 1), z_max=LEVEL * union.bit_length(),
-        area=area, points=int(points), residual=1.96 * sigma, sigma=sigma / math.sqrt(max(weight, 1.0)),
-        structural=structural, evidence=words,
-    )  # fmt: skip
+        id="",
+        facing=facing,
+        offset=offset,
+        start=base + float(rows.min()) * fine,
+        end=base + float(rows.max() + 1) * fine,
+        z_min=LEVEL * ((union & -union).bit_length() - 1),
+        z_max=LEVEL * union.bit_length(),
+        area=area,
+        points=int(points),
+        residual=1.96 * sigma,
+        sigma=sigma / math.sqrt(max(weight, 1.0)),
+        structural=structural,
+        evidence=words,
+    )
     return segment, SegmentRows(rows, bits)
 
 
 def _is_structural(
-    evidence: Evidence, facing: Facing, rows: NDArray[np.int64], bits: NDArray[np.uint64], offset: float,
+    evidence: Evidence,
+    facing: Facing,
+    rows: NDArray[np.int64],
+    bits: NDArray[np.uint64],
+    offset: float,
     config: SegmentsConfig,
-) -> tuple[bool, tuple[str, ...]]:  # fmt: skip
+) -> tuple[bool, tuple[str, ...]]:
     """Structure or furniture, by height reached, contact with the ceiling, and being looked over."""
     tall = (bits & ~height_mask(0, config.furniture_height + LEVEL)) != 0
     over = _looked_over(evidence, facing, rows, bits, offset)

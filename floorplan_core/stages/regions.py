@@ -100,9 +100,17 @@ def _region(
     free, total = _cells(polygon, grid)
     confidence = round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3)
     return Region(
-        id="", name="", polygon=polygon, label="", free_cells=free, total_cells=total, turning_distance=0.0,
-        sides=sides, confidence=confidence, rectangles=rows,
-    )  # fmt: skip
+        id="",
+        name="",
+        polygon=polygon,
+        label="",
+        free_cells=free,
+        total_cells=total,
+        turning_distance=0.0,
+        sides=sides,
+        confidence=confidence,
+        rectangles=rows,
+    )
 
 
 def _acceptable(region: Region, config: RegionsConfig) -> bool:

@@ -21,9 +21,11 @@ def _row(
     far = starts[-1] + widths[-1]
     boxes = [
         *slabs(-T, -T, far + T, depth + T),
-        *wall(0, -T, 0, -T, depth + T), *wall(0, far, far + T, -T, depth + T),
-        *wall(1, -T, 0, 0, far), *wall(1, depth, depth + T, 0, far),
-    ]  # fmt: skip
+        *wall(0, -T, 0, -T, depth + T),
+        *wall(0, far, far + T, -T, depth + T),
+        *wall(1, -T, 0, 0, far),
+        *wall(1, depth, depth + T, 0, far),
+    ]
     for start, door in zip(starts[1:], doors, strict=False):
         at = 0.3 + door * (depth - 1.5)
         boxes += wall(0, start - thick, start, 0, depth, (at, at + 0.9, LINTEL))

@@ -58,8 +58,16 @@ def write_tum(path: Path, rows) -> Path:
     return path
 
 
-PLY_NAMES = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint",
-             "f4": "float", "f8": "double"}  # fmt: skip
+PLY_NAMES = {
+    "i1": "char",
+    "u1": "uchar",
+    "i2": "short",
+    "u2": "ushort",
+    "i4": "int",
+    "u4": "uint",
+    "f4": "float",
+    "f8": "double",
+}
 
 
 def ply_header(form: str, elements) -> bytes:

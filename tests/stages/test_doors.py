@@ -148,11 +148,14 @@ def test_a_door_in_a_wall_that_runs_the_other_way():
     """Rooms one behind the other: the wall across y."""
     t, far = 0.2, 10.12
     boxes = [
-        (-t, -t, -0.2, 4 + t, far + t, 0.0), (-t, -t, 2.6, 4 + t, far + t, 2.8),
-        *wall(1, -t, 0, -t, 4 + t), *wall(1, far, far + t, -t, 4 + t),
-        *wall(0, -t, 0, 0, far), *wall(0, 4, 4 + t, 0, far),
+        (-t, -t, -0.2, 4 + t, far + t, 0.0),
+        (-t, -t, 2.6, 4 + t, far + t, 2.8),
+        *wall(1, -t, 0, -t, 4 + t),
+        *wall(1, far, far + t, -t, 4 + t),
+        *wall(0, -t, 0, 0, far),
+        *wall(0, 4, 4 + t, 0, far),
         *wall(1, 5, 5.12, 0, 4, (1.2, 2.15, LINTEL)),
-    ]  # fmt: skip
+    ]
     result = run(survey(boxes, [*stations(4, 5), *stations(4, 5, 0, 5.12)], rays=(200, 70)))
     (door,) = _doors(result)
     assert door.axis == 1
