@@ -101,3 +101,25 @@ def test_polygons_come_largest_first_without_lines_or_points():
     )
     assert [p.area for p in polygons_of(mixed)] == [9.0, 1.0]
     assert polygons_of(shapely.Polygon()) == []
+
+
+@given(
+    steps=st.lists(st.floats(1e-5, 1.4e-3), min_size=1, max_size=6),
+    signs=st.lists(st.sampled_from([-1, 1]), min_size=6, max_size=6),
+)
+def test_opening_keeps_polygons_rectilinear_and_within_themselves(steps, signs):
+    """A side with steps of less than a millimetre, which a buffer would make one slanted side."""
+    offset = np.cumsum([0.0, *(s * sign for s, sign in zip(steps, signs, strict=False))])
+    boxes = [shapely.box(k, 0, k + 1, 3 + d) for k, d in enumerate(offset)]
+    room = shapely.union_all(boxes)
+    opened = open_polygon(room, 0.3)
+    assert opened.is_valid
+    sides = np.abs(np.diff(np.asarray(opened.exterior.coords), axis=0))
+    assert sides.min(axis=1).max() < 2e-6
+    assert opened.difference(room).area < 1e-5
+    assert opened.area == pytest.approx(room.area, abs=0.02)
+
+
+def test_opening_keeps_the_parts_of_what_falls_apart():
+    room = shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 1, 7, 1.2), shapely.box(7, 0, 9, 4)])
+    assert [p.area for p in polygons_of(open_polygon(room, 0.3))] == pytest.approx([16, 8])
