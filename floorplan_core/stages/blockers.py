@@ -26,7 +26,7 @@ def crossing_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
 
 
 def crossing_offsets(plane: LayoutPlane, others: Float) -> Float:
-    """(M,) where along ``plane`` the wall runs ``others`` (K, 3) of the other axis cross or nearly touch it."""
+    """(M,) where along ``plane`` the wall runs ``others`` (K, 3) of the other axis cross or nearly meet."""
     near = (others[:, 1] - _TOUCH <= plane.offset) & (others[:, 2] + _TOUCH >= plane.offset)
     return np.asarray(others[near, 0])
 

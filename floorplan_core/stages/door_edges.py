@@ -92,7 +92,7 @@ def _refined(door: Door, sign: int, xyz: Float) -> Door:
 
 
 def _reveal(v: Float, edge: float) -> float:
-    """The median of the densest 3 cm of the surfaces within reach of an edge; the edge where there are none."""
+    """The median of the densest 3 cm of the surfaces within reach of an edge; the edge if there are none."""
     near = np.sort(v[np.abs(v - edge) < _AROUND])
     if len(near) < _ENOUGH:
         return edge

@@ -169,7 +169,7 @@ def _profile(
 
 
 def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
-    """(bins,) share of the passage heights at which all cells from just before to behind the wall are free."""
+    """(bins,) share of the passage heights at which all cells from before to behind the wall are free."""
     free = evidence.free if facing.axis == 0 else evidence.free.T
     mask = height_mask(*_PASSAGE)
     steps = np.arange(-_DEPTH, 0.11, evidence.cell)

@@ -38,8 +38,8 @@ def slice_map(
     universe = _indoors(states == FREE, evidence, planes, doors, config)
     if not universe.any():
         raise NoPlanError(
-            f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height to "
-            "a height that the sensor saw through, or give the trajectory (--trajectory)."
+            f"No free space was seen indoors at {height:.1f} m above the floor; set occupancy.slice_height "
+            "to a height that the sensor saw through, or give the trajectory (--trajectory)."
         )
     return OccupancyGrid(evidence.origin, evidence.cell, states, universe, round(height, 3))
 
