@@ -24,6 +24,7 @@ from floorplan_core.plugins import Exporter, Reader, ReadOptions, RegionClassifi
 from floorplan_core.readers.assemble import assemble
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.foreign import damaged, import_library, moved, spread_sample
+from floorplan_core.readers.join_time import nearest_rows, time_tolerance
 from floorplan_core.readers.ply_header import PlyHeader, parse_ply_header
 from floorplan_core.readers.records import as_scan_id, join_chunks
 from floorplan_core.readers.source import (
@@ -36,6 +37,7 @@ from floorplan_core.readers.source import (
 )
 from floorplan_core.readers.trajectory import read_trajectory, rotation_from_quaternion
 from floorplan_core.readers.trajectory_check import WrongTrajectory
+from floorplan_core.readers.trajectory_forms import is_rigid
 
 __all__ = [
     "CHUNK_POINTS",
@@ -82,10 +84,13 @@ __all__ = [
     "find_xyz",
     "hookimpl",
     "import_library",
+    "is_rigid",
     "join_chunks",
     "moved",
+    "nearest_rows",
     "parse_ply_header",
     "read_trajectory",
     "rotation_from_quaternion",
     "spread_sample",
+    "time_tolerance",
 ]
