@@ -90,8 +90,8 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
     histogram = np.minimum(profile.low / max(full, 1e-9), 1.0)
     sigma = max(config.smoothing / profile.step, 0.5)
     reach = max(2, round(4 * sigma))
-    x = np.arange(-reach, reach + 1)
-    kernel: Float = -x * np.exp(-0.5 * (x / sigma) ** 2)
+    x = np.arange(-reach, reach + 1, dtype=np.float64)
+    kernel = -x * np.exp(-0.5 * (x / sigma) ** 2)
     kernel /= kernel[x < 0].sum()  # so that a step from 0 to 1 peaks at 1
     gradient = np.convolve(histogram, kernel, mode="same")
     best, width = np.zeros(len(histogram)), np.zeros(len(histogram))

@@ -158,7 +158,7 @@ def _profile(
     low_mask = height_mask(_LOW_FROM, doors.crop_height)
     high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
     low: Float = count_bits(bits & low_mask) / int(low_mask).bit_count()
-    high: Float = count_bits(bits & high_mask) * LEVEL
+    high = LEVEL * count_bits(bits & high_mask).astype(np.float64)
     through = _through(facing, offset, evidence)
     if not evidence.viewpoints:
         # Free space is inferred from patches of floor and ceiling: spread it over the gaps.
