@@ -185,7 +185,7 @@ def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
 def _runs(profile: WallProfile, mask: NDArray[np.bool_]) -> Float:
     """(K, 2) start and end in metres of the runs of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
-    return profile.start + edges * profile.step
+    return profile.start + edges.astype(np.float64) * profile.step
 
 
 def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) -> Float:
