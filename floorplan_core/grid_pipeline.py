@@ -38,8 +38,8 @@ from floorplan_core.model import (
     WallPoints,
 )
 from floorplan_core.observer import Observer
-from floorplan_core.pipeline import _candidates, _cover_the_rest
 from floorplan_core.plugins import RegionClassifier, find_classifier
+from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.grid_map import MapFloor, find_floor
 from floorplan_core.stages.grid_map_doors import grid_doors
 from floorplan_core.stages.grid_map_outlines import askew_share, outline, outline_region
@@ -57,6 +57,7 @@ from floorplan_core.stages.grid_map_walls import Boundary, find_boundary, wall_p
 from floorplan_core.stages.labels import PaperClassifier, label_regions
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
+from floorplan_core.stages.speculation import cover_the_rest
 
 T = TypeVar("T")
 Bool = NDArray[np.bool_]
@@ -145,12 +146,12 @@ def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved
     around = outline(problem.mask, problem.grid)
     askew = around is not None and askew_share(around) > config.maps.max_askew
     planes = [] if askew else list(problem.planes)
-    candidates = _candidates(planes, problem.walls, problem.grid, config, Observer())
+    candidates = pair_planes(planes, problem.walls, problem.grid, config.candidates)
     cover = cover_free_space(candidates, problem.grid, config.cover)
     used: tuple[LayoutPlane, ...] = tuple(planes)
     left = np.count_nonzero(cover.uncovered)
     if not askew and left > _LEFT * np.count_nonzero(problem.grid.universe):
-        used, cover = _cover_the_rest(used, planes, problem.walls, cover, problem.grid, config)
+        used, cover = cover_the_rest(used, planes, problem.walls, cover, problem.grid, config)
     named = tuple(replace(p, id=f"{p.id}.{problem.number}") if p.id.startswith("q") else p for p in used)
     return _Solved(problem, candidates, cover, named, around, askew)
 

@@ -183,15 +183,19 @@ def test_not_a_number_among_good_points_changes_nothing(one_room):
     assert [r.polygon.wkb for r in other.regions] == [r.polygon.wkb for r in good.regions]
 
 
-def test_a_scan_in_one_plane_is_called_so():
+def test_a_scan_in_one_plane_needs_its_viewpoints():
     """What a 2-D laser sees: the outline of a room at one height."""
     rng = np.random.default_rng(4)
     t = rng.uniform(0, 4, N)
     side = rng.integers(0, 4, N)
     x = np.choose(side, [t, t, np.zeros(N), np.full(N, 4.0)])
     y = np.choose(side, [np.zeros(N), np.full(N, 4.0), t, t])
-    text = _refused(_cloud(np.column_stack([x, y, np.full(N, 0.3)])), True)
-    assert "2-D" in text
+    cloud = _cloud(np.column_stack([x, y, np.full(N, 0.3)]))
+    assert "2-D" in _refused(cloud, False)
+    plan = run(cloud, trajectory=True).plan
+    assert plan is not None
+    assert sum(r.area for r in plan.regions) == pytest.approx(16.0, abs=0.5)
+    assert any("planar" in w for w in plan.warnings)
 
 
 @pytest.mark.shared_data

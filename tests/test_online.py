@@ -12,7 +12,8 @@ from floorplan_core.errors import InputError
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.geometry import ray_carving, surfel_map
 from floorplan_core.model import FloorPlan, PointChunk, Reconstruction, Region, Trajectory
-from floorplan_core.pipeline import LATTICE_SAMPLE, FloorPlanner, process
+from floorplan_core.pipeline import FloorPlanner, process
+from floorplan_core.survey_map import SAMPLE
 from tests.box_world import LINTEL, Survey, room, rotation, stations, survey, two_rooms
 
 DOOR = (2.0, 2.9, LINTEL)
@@ -187,8 +188,8 @@ def test_the_work_of_a_scan_does_not_grow_with_the_run(monkeypatch):
         pose = np.eye(4)
         pose[:3, 3] = (3.0 * i, 0.0, 1.4)
         planner.integrate(rng.uniform(-3, 3, (per_scan, 3)), pose)
-    planner._begin()
-    voxels = len(planner._surfels)
+    planner.map.settle()
+    voxels = len(planner.map.surfels)
     assert voxels > 3 * (1 << 16)  # the table had to grow
     assert sum(calls) <= scans * per_scan + len(moved) * per_scan  # each point once, resumed after growth
     assert len(moved) <= np.log2(voxels / (1 << 16)) + 1
@@ -203,15 +204,15 @@ def test_an_area_seen_again_takes_no_more_memory():
         for i, pose in enumerate(data.poses):
             local = (data.points[data.scan_id == i] - pose[:3, 3]) @ pose[:3, :3]
             planner.integrate(local, pose)
-        planner._begin()
-        sizes.append((len(planner._surfels), planner._misses.blocks))
+        planner.map.settle()
+        sizes.append((len(planner.map.surfels), planner.map.rays.blocks))
     assert len(set(sizes)) == 1
 
 
 def test_waiting_points_are_the_planners_own():
     """A caller may reuse its buffer for the next scan."""
     data = survey(room(4, 5), stations(4, 5), rays=(160, 50))
-    buffer = np.empty((LATTICE_SAMPLE, 3))
+    buffer = np.empty((SAMPLE, 3))
     planner = FloorPlanner()
     for i in range(len(data.poses)):
         mine = data.points[data.scan_id == i]
@@ -239,9 +240,9 @@ def test_growth_of_the_ray_map_is_amortised(monkeypatch):
         pose = np.eye(4)
         pose[:3, 3] = (8.0 * i, 0.0, 1.4)
         planner.integrate(rng.uniform(-8, 8, (3000, 3)), pose)
-    planner._begin()
+    planner.map.settle()
     assert len(moved) >= 1
-    assert sum(moved) <= 4 * 4 * planner._misses.blocks
+    assert sum(moved) <= 4 * 4 * planner.map.rays.blocks
 
 
 @pytest.mark.parametrize("ids", [[-1, 0], [0, 2]])

@@ -20,6 +20,8 @@ good; when none is left the sweep of this i0 ends. What is visited is in essence
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -27,7 +29,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import CandidatesConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.summed_area import first_cells, summed_area
-from floorplan_core.model import CandidateSet, OccupancyGrid
+from floorplan_core.model import CandidateSet, Facing, LayoutPlane, OccupancyGrid
 from floorplan_core.observer import Observer
 
 Float = NDArray[np.float64]
@@ -74,6 +76,20 @@ def enumerate_candidates(
     enumerated = int(np.prod([len(p) for p in planes], dtype=object))
     total, free = np.ascontiguousarray(cells[:, 0]), np.ascontiguousarray(cells[:, 1])
     return CandidateSet(planes[0], planes[1], planes[2], planes[3], index, total, free, enumerated)
+
+
+def pair_planes(
+    planes: Sequence[LayoutPlane],
+    blockers: Float,
+    grid: OccupancyGrid,
+    config: CandidatesConfig,
+    observer: Observer | None = None,
+) -> CandidateSet:
+    """All valid rectangles between ``planes``, by facing; see :func:`enumerate_candidates`."""
+    east, west, north, south = (
+        np.unique([p.offset for p in planes if p.facing == facing]) for facing in Facing
+    )
+    return enumerate_candidates(east, west, north, south, blockers, grid, config, observer)
 
 
 def _room_for(size: int) -> tuple[Index, Int]:

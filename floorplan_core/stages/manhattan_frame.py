@@ -71,7 +71,9 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
 def _no_walls(area: float, voxels: int, height: float) -> str:
     what = f"No walls were found: only {area:.2f} m2 of vertical surface among {voxels} occupied voxels"
     if height < _FLAT:
-        return f"{what}, all within {height:.2f} m of height; a 2-D scan has no walls, give a 3-D survey."
+        return (
+            f"{what}, all within {height:.2f} m of height; a 2-D scan shows walls only with its trajectory."
+        )
     return f"{what}; check the unit and the up axis (--unit, --up), or scan more of the walls."
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from floorplan_core.model import Region
+from floorplan_core.model import Door, Region
 
 ID_PREFIX = "r"  # of a region's id; its number follows
 MIN_SHARE = 0.3  # of the smaller of two regions that the other must cover to be the same one
@@ -39,6 +39,15 @@ def persist_names(
             named.append(replace(region, name=str(fresh), id=f"{ID_PREFIX}{fresh}"))
             fresh += 1
     return tuple(named)
+
+
+def keep_names(
+    previous: Sequence[Region], regions: Sequence[Region], doors: Sequence[Door], first_unused: int
+) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+    """:func:`persist_names` for the regions and for the doors that name them."""
+    named = persist_names(previous, regions, first_unused)
+    new_id = {old.id: new.id for old, new in zip(regions, named, strict=True)}
+    return named, tuple(replace(d, connects=tuple(new_id[c] for c in d.connects)) for d in doors)
 
 
 def next_number(regions: Sequence[Region]) -> int:

@@ -8,14 +8,45 @@ the patch is covered with its help. What even then stays uncovered is reported b
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.model import Facing, LayoutPlane, OccupancyGrid
+from floorplan_core.config import Config
+from floorplan_core.model import Facing, LayoutPlane, OccupancyGrid, RectangleCover
+from floorplan_core.stages.candidates import pair_planes
+from floorplan_core.stages.set_cover import cover as cover_free_space
 
 _LEAST = 0.6  # m of straight frontier that is worth a plane
 _REACH = 4  # cells between the end of a wall and an uncovered cell
+
+
+def cover_the_rest(
+    planes: tuple[LayoutPlane, ...],
+    paired: Sequence[LayoutPlane],
+    walls: NDArray[np.float64],
+    cover: RectangleCover,
+    grid: OccupancyGrid,
+    config: Config,
+) -> tuple[tuple[LayoutPlane, ...], RectangleCover]:
+    """Cover what is left with the help of speculated planes; the planes used join the others."""
+    extra = frontier_planes(cover.uncovered, grid, paired, walls)
+    if not extra:
+        return planes, cover
+    rest = replace(grid, universe=cover.uncovered)
+    narrow = config.candidates.model_copy(update={"min_side": config.candidates.min_rest_side})
+    more = cover_free_space(pair_planes([*paired, *extra], walls, rest, narrow), rest, config.cover)
+    joined = RectangleCover(
+        np.concatenate([cover.chosen, np.full(len(more), -1, dtype=np.int64)]),
+        np.concatenate([cover.bounds, more.bounds]),
+        np.concatenate([cover.total_cells, more.total_cells]),
+        np.concatenate([cover.free_cells, more.free_cells]),
+        np.concatenate([cover.gained, more.gained]),
+        more.uncovered,
+    )
+    used = {round(float(v), 9) for v in more.bounds.ravel()}
+    return (*planes, *(p for p in extra if round(p.offset, 9) in used)), joined
 
 
 def frontier_planes(

@@ -1,0 +1,137 @@
+"""The map of a survey as it grows: surfels of what was hit, rays through what is free, and the sensor's path.
+
+``integrate`` costs O(points of the scan), however long the run. Sums are integers and do not depend on how the
+points were cut into chunks. Two kinds of survey are prepared first, decided on the first points of the run: the
+centres of a coarse voxel map are subdivided so that its surfaces have no holes, and a planar scan is lifted to
+walls of full height.
+"""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import Config
+from floorplan_core.errors import InputError
+from floorplan_core.geometry.lattice import lattice_spacing, subdivide
+from floorplan_core.geometry.planar import is_planar, lift
+from floorplan_core.geometry.ray_carving import MissMap
+from floorplan_core.geometry.surfel_map import SurfelMap
+from floorplan_core.model import PointChunk, Trajectory
+
+Float = NDArray[np.float64]
+Points = NDArray[np.float64] | NDArray[np.float32]
+Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
+
+MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
+SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
+
+
+class SurveyMap:
+    """Surfels, ray counts and the sensor's path, from scans as they come."""
+
+    def __init__(self, config: Config) -> None:
+        self.surfels = SurfelMap(config.voxels.size / 2)
+        self.rays = MissMap(config.voxels.size)
+        self.seconds = 0.0  # spent on integrating so far
+        self.planar = False  # True: a planar scan, lifted
+        self._limits = (config.input.min_range, config.input.max_range)
+        self._path: list[Float] = []
+        self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
+        self._pool = ThreadPoolExecutor(1)
+        self._lattice: float | None = (
+            None  # m between the points of a voxel map; 0: none; None: not known yet
+        )
+        self._waiting: list[Scan] = []  # what came before that was known
+
+    def expect(self, points: int) -> None:
+        """Say how many points will come, so that the map need not grow step by step."""
+        self.surfels.reserve(min(points, MOST_RESERVED))
+
+    def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
+        """Add one scan: (N, 3) metres in the sensor frame, or in the world where no pose (4, 4) is given."""
+        pts = np.asarray(points).reshape(-1, 3)
+        if T_world_sensor is None:
+            self._integrate(pts, np.full(len(pts), -1, dtype=np.int32), np.zeros((0, 3)))
+            return
+        pose = np.asarray(T_world_sensor, dtype=np.float64)
+        if pose.shape != (4, 4) or not np.isfinite(pose).all():
+            raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
+        with np.errstate(invalid="ignore"):  # what is not a number is left out later
+            world = pts @ pose[:3, :3].T + pose[:3, 3]
+        self._path.append(pose[None, :3, 3])
+        self._integrate(world, np.zeros(len(pts), dtype=np.int32), pose[None, :3, 3])
+
+    def integrate_chunk(self, chunk: PointChunk, trajectory: Trajectory | None) -> None:
+        """Add points that are in the local frame already; ``chunk.scan_id`` are rows of ``trajectory``.
+
+        Raises :class:`InputError` where the trajectory has no such row.
+        """
+        if chunk.scan_id is None or trajectory is None:
+            self._integrate(chunk.points, np.full(len(chunk.points), -1, dtype=np.int32), np.zeros((0, 3)))
+        elif len(chunk.scan_id):
+            first, last = int(chunk.scan_id.min()), int(chunk.scan_id.max())
+            if first < 0 or last >= len(trajectory):
+                raise InputError(
+                    f"Points refer to the scans {first} to {last}, the trajectory has the rows 0 to "
+                    f"{len(trajectory) - 1}; give the trajectory of this survey."
+                )
+            self._follow(trajectory, first, last)
+            origins = trajectory.origins[first : last + 1]
+            self._integrate(chunk.points, chunk.scan_id - np.int32(first), origins)
+
+    def settle(self) -> None:
+        """Decide on the first points, however they were cut, what kind of survey it is; add what waits."""
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            first = np.concatenate([w[0] for w in waiting])[:SAMPLE]
+            self.planar = is_planar(first) and all(len(w[2]) for w in waiting)
+            self._lattice = 0.0 if self.planar else lattice_spacing(first)
+        for points, scan, origins in waiting:
+            self._add(points, scan, origins)
+
+    def path(self) -> Float:
+        """(M, 3) sensor positions so far, local frame."""
+        parts = [np.zeros((0, 3)), *self._path]
+        if self._rows is not None:
+            trajectory, first, last = self._rows
+            parts.append(trajectory.origins[first : last + 1])
+        return np.concatenate(parts)
+
+    def _follow(self, trajectory: Trajectory, first: int, last: int) -> None:
+        """Widen the part of the trajectory that was used: the path does not depend on the chunks."""
+        if self._rows is not None:
+            first, last = min(first, self._rows[1]), max(last, self._rows[2])
+        self._rows = (trajectory, first, last)
+
+    def _integrate(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
+        if self._lattice is not None:
+            self._add(points, scan, origins)
+            return
+        self._waiting.append((points.copy(), scan, origins))
+        if sum(len(waiting[0]) for waiting in self._waiting) >= SAMPLE:
+            self.settle()
+
+    def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
+        began = time.perf_counter()
+        points, scan, origins = self._prepared(points, scan, origins)
+        carving = self._pool.submit(self.rays.carve, points, scan, origins, self._limits)
+        self.surfels.insert(points, scan, origins, self._limits)
+        carving.result()
+        self.seconds += time.perf_counter() - began
+
+    def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
+        """The scan with a voxel map subdivided and a planar scan lifted."""
+        if self.planar:
+            points, scan, origins = lift(points, scan, origins)
+        elif self._lattice and self._lattice > self.surfels.size:
+            dense = subdivide(points, self._lattice, self.surfels.size)
+            points, scan = dense, np.repeat(scan, len(dense) // max(len(points), 1))
+        return (
+            points,
+            np.ascontiguousarray(scan, dtype=np.int32),
+            np.ascontiguousarray(origins, dtype=np.float64),
+        )
