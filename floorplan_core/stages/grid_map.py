@@ -11,6 +11,7 @@ Cost: a few passes over the cells.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,7 +30,7 @@ _LEAST_EDGE = 6.0  # cells: the direction of shorter edges is a matter of roundi
 _EXACT = math.radians(0.1)  # a yaw below this is none: the map is taken as it is
 _SEARCH = math.radians(2)  # the directions of edges are right to this
 _NEAR_AXIS = math.radians(10)  # boundaries within this of an axis make the search
-_SUBSAMPLES = 3  # points of an occupied cell a side, so that a turned wall keeps no holes
+_BESIDE = 5  # cells along the boundary, to either side, that give its direction at a cell
 _MARGIN = 2  # cells around a resampled map
 
 
@@ -71,50 +72,47 @@ def find_floor(grid_map: GridMap, config: Config) -> MapFloor:
 
 def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, float]:
     """Yaw of the walls in the map's axes, radians; the share of boundary behind it; metres of boundary."""
-    edges = _straight_edges(free)
-    vector = edges[:, 2:] - edges[:, :2]
-    length = np.hypot(vector[:, 0], vector[:, 1])
-    angle = np.arctan2(vector[:, 1], vector[:, 0])
+    import cv2
+
+    contours, _ = cv2.findContours(free.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
+    edges = np.concatenate([np.zeros((0, 2)), *(_straight_edges(c) for c in contours)])
+    length = np.hypot(edges[:, 0], edges[:, 1])
+    angle = np.arctan2(edges[:, 1], edges[:, 0])
     metres = float(length.sum() * cell)
     if len(edges) == 0:
         return 0.0, 0.0, metres
     if config.yaw_deg is not None:
         yaw = float(frames._wrap(math.radians(config.yaw_deg)))
     else:
-        yaw = _sharpened(edges, frames._strongest_direction(angle, length), config)
+        yaw = _sharpened(contours, frames._strongest_direction(angle, length), config)
     near = np.abs(frames._wrap(angle - yaw)) < math.radians(config.tolerance_deg)
     return (0.0 if abs(yaw) < _EXACT else yaw), float(length[near].sum() / length.sum()), metres
 
 
-def _straight_edges(free: Bool) -> Float:
-    """(N, 4) x0, y0, x1, y1 of the straight boundaries of the free space, cells."""
+def _straight_edges(contour: NDArray[np.int32]) -> Float:
+    """(N, 2) vectors of the straight stretches of one boundary, cells."""
     import cv2
 
-    contours, _ = cv2.findContours(free.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
-    rows = []
-    for contour in contours:
-        ring = cv2.approxPolyDP(contour, _SMOOTH, True)[:, 0].astype(np.float64)
-        rows.append(np.hstack([ring, np.roll(ring, -1, axis=0)]))
-    edges = np.concatenate([np.zeros((0, 4)), *rows])
-    return np.asarray(edges[np.hypot(edges[:, 2] - edges[:, 0], edges[:, 3] - edges[:, 1]) >= _LEAST_EDGE])
+    ring = cv2.approxPolyDP(contour, _SMOOTH, True)[:, 0].astype(np.float64)
+    edges = np.roll(ring, -1, axis=0) - ring
+    return np.asarray(edges[np.hypot(edges[:, 0], edges[:, 1]) >= _LEAST_EDGE])
 
 
-def _sharpened(edges: Float, coarse: float, config: FrameConfig) -> float:
-    """The yaw around ``coarse`` under which the boundaries, projected along themselves, are sharpest."""
-    vector = edges[:, 2:] - edges[:, :2]
-    angle = np.arctan2(vector[:, 1], vector[:, 0]) - coarse
+def _sharpened(contours: Sequence[NDArray[np.int32]], coarse: float, config: FrameConfig) -> float:
+    """The yaw around ``coarse`` under which the boundary cells, projected along their walls, are sharpest."""
+    rings = [c[:, 0].astype(np.float64) for c in contours if len(c) > 4 * _BESIDE]
+    if not rings:
+        return coarse
+    xy = np.concatenate(rings)
+    # The direction of a boundary at a cell: from some cells before it to some after.
+    along = np.concatenate([np.roll(r, -_BESIDE, axis=0) - np.roll(r, _BESIDE, axis=0) for r in rings])
+    angle = np.arctan2(along[:, 1], along[:, 0]) - coarse
     off = frames._wrap(angle)
+    normal = 1 - np.round((angle - off) / (math.pi / 2)).astype(np.int64) % 2
     near = np.abs(off) < _NEAR_AXIS
-    along = np.round((angle - off) / (math.pi / 2)).astype(int) % 2  # 0: the edge runs along x
-    points, axis = [np.zeros((0, 2))], [np.zeros(0, dtype=np.int64)]
-    for a, v, k in zip(edges[near, :2], vector[near], along[near], strict=True):
-        steps = np.arange(0.5, np.hypot(*v)) / np.hypot(*v)
-        points.append(a + steps[:, None] * v)
-        axis.append(np.full(len(steps), 1 - k))
-    xy, normal = np.concatenate(points), np.concatenate(axis)
+    xy, normal = xy[near] - xy.mean(axis=0), normal[near]
     if len(xy) == 0:
         return coarse
-    xy = xy - xy.mean(axis=0)
     yaw, fine = coarse, math.radians(config.yaw_step_deg)
     for span, pace in ((_SEARCH, 2 * fine), (4 * fine, fine / 2)):
         trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
@@ -143,12 +141,10 @@ def _turned(grid_map: GridMap, yaw: float) -> OccupancyGrid:
 
 
 def _paint_walls(out: NDArray[np.uint8], walls: Bool, turn: Float, low: Float) -> None:
-    """Forward: every occupied cell reaches the new raster, whatever the rounding."""
+    """Forward: every occupied cell reaches the new raster, so that walls one cell thick keep no holes."""
     iy, ix = np.nonzero(walls)
-    for dx in (np.arange(_SUBSAMPLES) + 0.5) / _SUBSAMPLES:
-        for dy in (np.arange(_SUBSAMPLES) + 0.5) / _SUBSAMPLES:
-            at = np.floor(np.column_stack([ix + dx, iy + dy]) @ turn.T - low).astype(int)
-            out[at[:, 1], at[:, 0]] = OCCUPIED
+    at = np.floor(np.column_stack([ix + 0.5, iy + 0.5]) @ turn.T - low).astype(int)
+    out[at[:, 1], at[:, 0]] = OCCUPIED
 
 
 def find_furniture(states: NDArray[np.uint8], cell: float, config: MapsConfig) -> Bool:

@@ -41,8 +41,8 @@ class Boundary:
 
     facing: NDArray[np.int8]
     space: Labels
-    offset: Float  # mean over the piece: finer than a cell where the wall is not quite straight
-    spread: Float  # 95 % of its cells deviate less
+    offset: Float  # mean over its wall cells: finer than a cell where the wall is not quite straight
+    spread: Float  # none of its wall cells deviates more
     start: Float
     end: Float
     wall: Float  # share of the piece that stands against wall
@@ -158,8 +158,9 @@ def _summary(
         empty = np.zeros(0)
         return Boundary(empty.astype(np.int8), empty.astype(np.int32), *([empty] * 6))
     count = np.diff(first, append=len(piece)).astype(np.float64)
-    mean = np.add.reduceat(line, first) / count
-    deviation = np.maximum.reduceat(np.abs(line - np.repeat(mean, count.astype(int))), first)
+    sure = np.repeat(np.add.reduceat(against == WALL, first) == 0, count.astype(int)) | (against == WALL)
+    mean = np.add.reduceat(line * sure, first) / np.add.reduceat(sure, first, dtype=np.float64)
+    deviation = np.maximum.reduceat(np.abs(line - np.repeat(mean, count.astype(int))) * sure, first)
     a, o = facing.axis, grid.origin
     return Boundary(
         np.full(len(first), facing, dtype=np.int8),
