@@ -72,6 +72,20 @@ def _borders(shape: Any, reach: float) -> NDArray[np.object_]:
     return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
 
 
+def without_slits(shape: Any, width: float) -> Any:
+    """Polygons without the holes narrower than ``width``: what millimetres between two planes leave open."""
+    parts = [
+        shapely.Polygon(part.exterior, [h for h in part.interiors if _narrow_side(h) >= width])
+        for part in polygons_of(shape)
+    ]
+    return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+
+
+def _narrow_side(ring: Any) -> float:
+    x0, y0, x1, y1 = ring.bounds
+    return float(min(x1 - x0, y1 - y0))
+
+
 def polygons_of(shape: Any) -> list[Any]:
     """The polygons of a polygon, multi-polygon or collection, largest first."""
     parts = [p for p in shapely.get_parts(shape) if p.geom_type == "Polygon" and p.area > 0]

@@ -19,12 +19,14 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import RegionsConfig
 from floorplan_core.geometry.raster import polygon_window
-from floorplan_core.geometry.rectilinear import open_polygon, polygons_of
+from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, without_slits
 from floorplan_core.model import Door, LayoutPlane, LayoutSegment, OccupancyGrid, RectangleCover, Region
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 
 Float = NDArray[np.float64]
+
+_SLIT = 0.02  # m: a narrower hole in a region is the jitter of planes that should have met
 
 _PROBES = (0.15, 0.3, 0.5)  # m from the wall's face, where the region behind a door is looked for
 
@@ -78,7 +80,7 @@ def _disjoint(
         rest = shapes[k]
         if before:
             rest = open_polygon(shapely.difference(rest, shapely.union_all(before)), sliver)
-        rest = shapely.set_precision(rest, 1e-6)
+        rest = without_slits(shapely.set_precision(rest, 1e-6), _SLIT)
         done.append(rest)
         out += [(part, rows) for part in polygons_of(rest)]
     return out

@@ -8,7 +8,14 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides, open_polygon, polygons_of
+from floorplan_core.geometry.rectilinear import (
+    corners,
+    map_polygon,
+    move_sides,
+    open_polygon,
+    polygons_of,
+    without_slits,
+)
 
 L_SHAPE = [(0, 0), (4, 0), (4, 2), (2, 2), (2, 5), (0, 5)]
 
@@ -123,3 +130,9 @@ def test_opening_keeps_polygons_rectilinear_and_within_themselves(steps, signs):
 def test_opening_keeps_the_parts_of_what_falls_apart():
     room = shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 1, 7, 1.2), shapely.box(7, 0, 9, 4)])
     assert [p.area for p in polygons_of(open_polygon(room, 0.3))] == pytest.approx([16, 8])
+
+
+def test_slits_are_filled_and_courtyards_kept():
+    room = shapely.box(0, 0, 9, 9).difference(shapely.box(2, 2, 4, 2.001)).difference(shapely.box(5, 5, 6, 7))
+    assert _same(without_slits(room, 0.02), shapely.box(0, 0, 9, 9).difference(shapely.box(5, 5, 6, 7)))
+    assert _same(without_slits(shapely.box(0, 0, 1, 1), 0.02), shapely.box(0, 0, 1, 1))
