@@ -1,0 +1,56 @@
+"""Where compiled kernels are kept: one folder for each state of the sources that hold kernels.
+
+Numba looks at the file of a kernel only; when a function that is inlined from another file changes, it goes on
+with the stale machine code. A folder named by the digest of all these sources cannot be stale; it also works
+where the package itself cannot be written. ``NUMBA_CACHE_DIR`` in the environment wins.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import sys
+from pathlib import Path
+
+_HOMES = ("geometry", "stages", "readers", "simulation")  # the packages that hold kernels
+_KEPT = 3  # folders of earlier states that stay
+
+
+def use_kernel_cache() -> None:
+    """Point numba to the folder of this state of the sources; called before the first kernel is defined."""
+    if "NUMBA_CACHE_DIR" in os.environ:
+        return
+    folder = _cache_root() / source_digest()
+    try:
+        if not folder.exists():
+            folder.mkdir(parents=True)
+            _forget_old(folder)
+    except OSError:
+        return  # numba finds a place itself
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    if "numba" in sys.modules:  # it has read the environment already
+        sys.modules["numba"].config.CACHE_DIR = str(folder)
+
+
+def source_digest() -> str:
+    """12 hexadecimal digits of all sources that hold kernels."""
+    package, digest = Path(__file__).parent, hashlib.sha1(usedforsecurity=False)
+    for home in _HOMES:
+        for path in sorted((package / home).glob("*.py")):
+            if b"njit" in (text := path.read_bytes()):
+                digest.update(path.name.encode() + text)
+    return digest.hexdigest()[:12]
+
+
+def _cache_root() -> Path:
+    from platformdirs import user_cache_dir
+
+    return Path(user_cache_dir("floorcast")) / "kernels"
+
+
+def _forget_old(current: Path) -> None:
+    """Remove all but the newest folders of earlier states."""
+    others = sorted((p for p in current.parent.iterdir() if p != current), key=lambda p: p.stat().st_mtime)
+    for path in others[:-_KEPT]:
+        shutil.rmtree(path, ignore_errors=True)
