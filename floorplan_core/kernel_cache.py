@@ -1,6 +1,6 @@
 """Where compiled kernels are kept: one folder for each state of the sources that hold kernels.
 
-Numba looks at the file of a kernel only; when a function that is inlined from another file changes, it goes on
+Numba looks at the file of a kernel only; when a function inlined from another file changes, it goes on
 with the stale machine code. A folder named by the digest of all these sources cannot be stale; it also works
 where the package itself cannot be written. ``NUMBA_CACHE_DIR`` in the environment wins.
 """
