@@ -1,4 +1,7 @@
-"""Two rooms side by side with a door between them, two scans in each: enough for a plan in a second."""
+"""Two rooms side by side with a door between them, two scans in each: enough for a plan in a second.
+
+Each scan also sees what is opposite the door in the other room: without it nobody could tell a door from a gap.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,11 @@ def write_survey(folder: Path, spacing: float = 0.05) -> Path:
     """Write ``points.ply`` and ``trajectory.tum`` into ``folder``; returns the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     rooms = [_room(k * (WIDTH + WALL), door_at_end=k == 0, spacing=spacing) for k in range(2)]
-    scans = [scan for room in rooms for scan in np.array_split(room, 2)]  # two scans in each room
+    scans = [
+        np.concatenate([scan, _through_the_door(rooms[1 - k], _sensor(k))])
+        for k, room in enumerate(rooms)
+        for scan in np.array_split(room, 2)  # two scans in each room
+    ]
     table = np.zeros(sum(map(len, scans)), dtype=[("xyz", "<f4", 3), ("scan_id", "<i4")])
     table["xyz"] = np.concatenate(scans)
     table["scan_id"] = np.repeat(np.arange(len(scans)), [len(s) for s in scans])
@@ -29,11 +36,26 @@ def write_survey(folder: Path, spacing: float = 0.05) -> Path:
     ]
     (folder / "points.ply").write_bytes("\n".join(header).encode() + table.tobytes())
     rows = [
-        f"{100 + SECONDS_BETWEEN_SCANS * i} {WIDTH / 2 + (i // 2) * (WIDTH + WALL)} {DEPTH / 2} 1.4 0 0 0 1"
+        f"{100 + SECONDS_BETWEEN_SCANS * i} {' '.join(map(str, _sensor(i // 2)))} 0 0 0 1"
         for i in range(len(scans))
     ]
     (folder / "trajectory.tum").write_text("\n".join(rows) + "\n")
     return folder
+
+
+def _sensor(room: int) -> tuple[float, float, float]:
+    """Where the sensor stands in a room."""
+    return WIDTH / 2 + room * (WIDTH + WALL), DEPTH / 2, 1.4
+
+
+def _through_the_door(points: np.ndarray, sensor: tuple[float, float, float]) -> np.ndarray:
+    """The points of the other room whose rays pass the opening in both faces of the wall."""
+    ray = points - sensor
+    passed = np.ones(len(points), dtype=bool)
+    for face in (WIDTH, WIDTH + WALL):
+        at = sensor + ray * ((face - sensor[0]) / ray[:, :1])
+        passed &= (at[:, 1] > DOOR[0]) & (at[:, 1] < DOOR[1]) & (at[:, 2] < DOOR[2])
+    return points[passed]
 
 
 def _room(x0: float, door_at_end: bool, spacing: float) -> np.ndarray:
