@@ -23,7 +23,7 @@ Runner = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture(autouse=True, scope="session")
 def interruptible() -> None:
-    """Shells start background jobs deaf to Ctrl-C, and their children inherit it; the tests of Ctrl-C need it."""
+    """Shells start background jobs deaf to Ctrl-C, and their children inherit that; some tests need it."""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
