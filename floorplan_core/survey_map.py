@@ -1,9 +1,9 @@
 """The map of a survey as it grows: surfels of what was hit, rays through what is free, and the sensor's path.
 
-``integrate`` costs O(points of the scan), however long the run. Sums are integers and do not depend on how the
-points were cut into chunks. Two kinds of survey are prepared first, decided on the first points of the run: the
-centres of a coarse voxel map are subdivided so that its surfaces have no holes, and a planar scan is lifted to
-walls of full height.
+``integrate`` costs O(points of the scan), however long the run. Sums are integers and do not depend on how
+the points were cut into chunks. Two kinds of survey are prepared first, decided on the first points of the
+run: the centres of a coarse voxel map are subdivided so that its surfaces have no holes, and a planar scan is
+lifted to walls of full height.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Planar scans: a laser that turns in one horizontal plane sees walls as lines.
 
-Each return is lifted to a column of the height of a wall, its ray to as many rays: what stands in the plane of
-the laser is taken to stand from floor to ceiling, since nothing else is known of it.
+Each return is lifted to a column of the height of a wall, its ray to as many rays: what stands in the plane
+of the laser is taken to stand from floor to ceiling, since nothing else is known of it.
 """
 
 from __future__ import annotations
