@@ -55,16 +55,20 @@ def _door(
     cells = floor if axis == 1 else floor.T  # rows now run along the wall
     u, v = ((x0 + x1) / 2, (y0 + y1) / 2) if axis == 1 else ((y0 + y1) / 2, (x0 + x1) / 2)
     low, high = sorted((x0, x1) if axis == 1 else (y0, y1))
-    low, high = _jambs(cells, u, v, low, high)
-    near, far = (v, v) if passage.kind == MOUTH else _faces(cells, u, v, high - low, grid.cell, config)
-    if lean > _UPRIGHT and far - near + 2 < (high - low) * math.tan(lean):
+    row = _row_in_wall(cells, u, v, high - low)
+    low, high = _jambs(cells, u, row, low, high)
+    if passage.kind == MOUTH:
+        near = far = v + 0.5
+    else:
+        near, far = _faces(cells, u, row, high - low, grid.cell, config)
+    if lean > _UPRIGHT and far - near + 1 < (high - low) * math.tan(lean):
         return None  # the wall itself leans
     o = grid.origin
     return Door(
         id="",
         planes=(),
         axis=axis,
-        offset=float(o[axis] + ((near + far) / 2 + 0.5) * grid.cell),
+        offset=float(o[axis] + (near + far) / 2 * grid.cell),
         start=float(o[1 - axis] + low * grid.cell),
         end=float(o[1 - axis] + high * grid.cell),
         thickness=float((far - near) * grid.cell),
@@ -74,10 +78,16 @@ def _door(
     )
 
 
-def _jambs(cells: Bool, u: float, v: float, low: float, high: float) -> tuple[float, float]:
+def _row_in_wall(cells: Bool, u: float, v: float, width: float) -> int:
+    """The row of a chord, or the one beside it between the jambs: corners belong to the rooms, too."""
+    rows = (round(v), round(v) + 1, round(v) - 1)
+    return next((row for row in rows if _run(cells, u, row, width) <= _WIDER * width + 2), rows[0])
+
+
+def _jambs(cells: Bool, u: float, row: int, low: float, high: float) -> tuple[float, float]:
     """Edges of the opening along the wall, cells; the chord's own ends where its middle is wider."""
     most = _WIDER * (high - low) + 2
-    left, right = (march(cells, round(u), round(v), s, 0.0, most) for s in (-1.0, 1.0))
+    left, right = (march(cells, round(u), row, s, 0.0, most) for s in (-1.0, 1.0))
     start, end = round(u) - math.ceil(left - 0.5), round(u) + math.ceil(right - 0.5)
     if end - start > most:
         return low, high + 1.0
@@ -85,22 +95,22 @@ def _jambs(cells: Bool, u: float, v: float, low: float, high: float) -> tuple[fl
 
 
 def _faces(
-    cells: Bool, u: float, v: float, width: float, cell: float, config: DoorsConfig
+    cells: Bool, u: float, row: int, width: float, cell: float, config: DoorsConfig
 ) -> tuple[float, float]:
-    """Rows of the two faces of the wall: as far as the opening gets no wider."""
-    limit, out = round(config.max_thickness / cell), []
+    """Edges of the wall's faces, cells: as far as the opening gets no wider; none where it never does."""
+    limit, steps = round(config.max_thickness / cell), []
     for sign in (-1, 1):
         n = 0
-        while n < limit and _run(cells, u, v + sign * (n + 1), width) <= _WIDER * width:
+        while n < limit and _run(cells, u, row + sign * (n + 1), width) <= _WIDER * width:
             n += 1
-        out.append(v + sign * n)
-    near, far = out
-    return (near, far) if far - near <= limit else (v, v)
+        steps.append(n)
+    near, far = float(row - steps[0]), float(row + steps[1] + 1)
+    return (near, far) if far - near <= limit else (row + 0.5, row + 0.5)
 
 
-def _run(cells: Bool, u: float, v: float, width: float) -> float:
-    """Free cells along the wall through u, v; infinite where that is no free cell."""
-    j, i = round(v), round(u)
+def _run(cells: Bool, u: float, j: int, width: float) -> float:
+    """Free cells along the wall through u in row j; infinite where that is no free cell."""
+    i = round(u)
     if not (0 <= j < cells.shape[0] and 0 <= i < cells.shape[1] and cells[j, i]):
         return math.inf
     return float(march(cells, i, j, 1.0, 0.0, 2 * width) + march(cells, i, j, -1.0, 0.0, 2 * width))

@@ -10,7 +10,7 @@ the wall ahead: the apertures of the paper's matched filter, for walls of any di
 - a *mouth* where a corridor as wide as the chord opens into a hall.
 
 Doors are cut first, then passages, then mouths, each from the shortest; chords with more wall in their line
-count as shorter. A passage that turns out to lie between two pieces of one corridor is healed again.
+count as shorter. What turns out to part nothing, or two pieces of one corridor, is healed again.
 Cost: the corners times their neighbours within ``max_passage``.
 """
 
@@ -249,22 +249,26 @@ def _passage(chords: _Chords, k: int, kind: str, width: float, cell: float) -> P
 def _heal(
     found: Sequence[Passage], floor: Bool, cut: Bool, cell: float, config: MapsConfig
 ) -> tuple[tuple[Passage, ...], Labels]:
-    """Take back what parts two pieces of one corridor: chords as wide as both spaces beside them."""
+    """Take back what parts nothing, or two pieces of one corridor."""
     gap, labels = _distance(cut), label_spaces(cut, cell, config)
     radius = np.zeros(int(labels.max()) + 1)
     np.maximum.at(radius, labels, gap)
     radius[0] = np.inf
-    kept = []
-    for passage in found:
-        length = float(np.hypot(passage.end[0] - passage.start[0], passage.end[1] - passage.start[1]))
-        beside = {int(v) for v in _beside(passage, labels)} - {0}
-        if passage.kind == PASSAGE and beside and length / 2 >= _SAME_WIDTH * max(radius[list(beside)]):
-            continue
-        kept.append(passage)
+    kept = [p for p in found if not _is_idle(p, labels, radius, cell)]
     whole = floor.copy()
     for passage in kept:
         _draw(whole, np.array([*passage.start, *passage.end]))
     return tuple(kept), label_spaces(whole, cell, config)
+
+
+def _is_idle(passage: Passage, labels: Labels, radius: Float, cell: float) -> bool:
+    """True for a chord with one space all around it, and for one as wide as both spaces beside it."""
+    one, other = (int(v) for v in _beside(passage, labels))
+    if one == other > 0:
+        return True
+    beside = [v for v in (one, other) if v > 0]
+    half = float(np.hypot(passage.end[0] - passage.start[0], passage.end[1] - passage.start[1])) / 2
+    return passage.kind == PASSAGE and bool(beside) and half >= _SAME_WIDTH * float(radius[beside].max())
 
 
 def _beside(passage: Passage, labels: Labels) -> Labels:

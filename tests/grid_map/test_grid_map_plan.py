@@ -49,8 +49,8 @@ def test_every_door_to_the_cell(plan: FloorPlan) -> None:
     assert len(plan.doors) == len(DOORS)
     for x0, y0, x1, y1 in DOORS:
         (door,) = [d for d in plan.doors if abs(d.start - x0) < 0.06 and abs(d.end - x1) < 0.06]
-        assert door.axis == 1 and y0 - 0.01 <= door.offset <= y1 + 0.01
-        assert door.thickness == pytest.approx(y1 - y0, abs=2.1 * CELL)
+        assert door.axis == 1 and door.offset == pytest.approx((y0 + y1) / 2, abs=CELL / 2 + 1e-9)
+        assert door.thickness == pytest.approx(y1 - y0, abs=CELL + 1e-9)
         assert len(door.connects) == 2 and door.planes and 0 < door.confidence <= 1
         corridor = region_at(plan, 6.0, 4.4)
         assert corridor.id in door.connects and door.id in corridor.doors

@@ -85,6 +85,20 @@ def test_a_ring_corridor_stays_whole() -> None:
     assert passages == () and spaces.max() == 1
 
 
+def test_a_gate_in_a_ring_corridor_parts_nothing() -> None:
+    states = blank(14, 10)
+    states[20:-20, 20:-20] = FREE
+    states[56:-56, 56:-56] = OCCUPIED
+    states[20:56, 158:162] = OCCUPIED
+    states[28:48, 158:162] = FREE  # a gate of 1 m: one can walk around the ring to its other side
+    passages, spaces = spaces_of(states)
+    assert passages == () and spaces.max() == 1
+    states[-56:-20, 158:162] = OCCUPIED  # the other way is walled up, with a gate, too
+    states[-46:-26, 158:162] = FREE
+    passages, spaces = spaces_of(states)
+    assert len(passages) == 2 and spaces.max() == 2
+
+
 @pytest.mark.parametrize(("gap", "rooms"), [(1.0, 2), (2.5, 2), (4.8, 1)])
 def test_gap_in_a_wall_parts_up_to_a_width(gap: float, rooms: int) -> None:
     states = blank(10, 8)
