@@ -14,7 +14,7 @@ taken from the map instead, and a warning says so.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -60,7 +60,7 @@ from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
 
 T = TypeVar("T")
-Bool = NDArray[np.bool_]
+Float = NDArray[np.float64]
 
 _LEFT = 0.03  # of a space: less that no rectangle covers are niches and recesses of doors
 
@@ -165,9 +165,9 @@ def _regions(
 ) -> tuple[tuple[Region, ...], int]:
     """One region for each space, by its rectangles or by its outline, and how many are outlines."""
     found: list[Region] = []
-    drawn = 0
+    drawn, boxes = 0, _door_boxes(doors)
     for space, row in zip(solved, first, strict=False):
-        region = _by_rectangles(space, doors, config)
+        region = _by_rectangles(space, _doors_around(doors, boxes, space.problem.grid), config)
         if region is None:
             region = _by_outline(space)
             drawn += region is not None
@@ -182,22 +182,26 @@ def _regions(
     return in_reading_order(disjoint(found, rebuild)), drawn
 
 
-def _by_rectangles(space: _Solved, doors: tuple[Door, ...], config: Config) -> Region | None:
+def _by_rectangles(space: _Solved, doors: Sequence[Door], config: Config) -> Region | None:
     """The region of the chosen rectangles, where it explains the space."""
     problem = space.problem
     if space.askew or len(space.cover) == 0:
         return None
-    near = [d for d in doors if _touches(d, problem.grid)]
-    made = build_regions(space.cover, space.planes, problem.segments, near, problem.grid, config.regions)
+    made = build_regions(space.cover, space.planes, problem.segments, doors, problem.grid, config.regions)
     best = max(made, key=lambda r: r.free_cells, default=None)
     return best if best is not None and explained(best, problem) >= config.maps.agreement else None
 
 
-def _touches(door: Door, grid: OccupancyGrid) -> bool:
-    """True where the door lies around a space's part of the map."""
-    (ax, ay), (bx, by) = door.line()
+def _door_boxes(doors: Sequence[Door]) -> Float:
+    """(D, 4) x0, y0, x1, y1 of the openings as lines."""
+    return np.array([d.line().ravel() for d in doors], dtype=np.float64).reshape(-1, 4)
+
+
+def _doors_around(doors: Sequence[Door], boxes: Float, grid: OccupancyGrid) -> list[Door]:
+    """The doors in a space's part of the map."""
     x0, y0, x1, y1 = grid.extent
-    return bool(ax <= x1 and bx >= x0 and ay <= y1 and by >= y0)
+    inside = (boxes[:, 0] <= x1) & (boxes[:, 2] >= x0) & (boxes[:, 1] <= y1) & (boxes[:, 3] >= y0)
+    return [doors[int(k)] for k in np.flatnonzero(inside)]
 
 
 def _by_outline(space: _Solved) -> Region | None:
