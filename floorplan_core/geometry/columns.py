@@ -129,36 +129,15 @@ def link_chains(offsets, bits, tolerance, gap):  # type: ignore[no-untyped-def]
     active = np.zeros(most, dtype=np.int64)
     n_active = 0
     for iv in range(nv):
-        kept = 0
-        for a in range(n_active):
-            if chain_last[active[a]] >= iv - gap:
-                active[kept] = active[a]
-                kept += 1
-        n_active = kept
+        n_active = _keep_recent(active, n_active, chain_last, iv - gap)
         iu = 0
         while iu < nu:
             if np.isnan(offsets[iv, iu]):
                 iu += 1
                 continue
-            first, total, mean, word = iu, 0.0, 0.0, np.uint64(0)
-            while iu < nu and not np.isnan(offsets[iv, iu]):
-                if total > 0 and abs(offsets[iv, iu] - mean / total) > 0.8:
-                    break
-                p = float(popcount(bits[iv, iu]))
-                mean += p * offsets[iv, iu]
-                total += p
-                word |= bits[iv, iu]
-                iu += 1
-            u = mean / total
-            for ju in (first - 1, iu):  # the neighbours hold the tails of the noise
-                if 0 <= ju < nu:
-                    word |= bits[iv, ju]
-            best, best_d = -1, tolerance
-            for a in range(n_active):
-                c = active[a]
-                d = max(abs(recent[c] - u), abs(chain_u[c] - u))
-                if chain_last[c] < iv and d < best_d:
-                    best, best_d = c, d
+            first = iu
+            iu, u, total, word = _read_run(offsets[iv], bits[iv], first)
+            best = _nearest_chain(u, active[:n_active], recent, chain_u, chain_last, iv, tolerance)
             if best < 0:
                 if n_chains == most:
                     continue
@@ -179,3 +158,44 @@ def link_chains(offsets, bits, tolerance, gap):  # type: ignore[no-untyped-def]
             node_u[n_nodes], node_bits[n_nodes] = u, word
             n_nodes += 1
     return node[:n_nodes], node_u[:n_nodes], node_bits[:n_nodes], n_chains
+
+
+@njit(cache=True, nogil=True)
+def _keep_recent(active, count, last, least):  # type: ignore[no-untyped-def]
+    """Moves the chains met in row ``least`` or later to the front of ``active``; returns how many they are."""
+    kept = 0
+    for a in range(count):
+        if last[active[a]] >= least:
+            active[kept] = active[a]
+            kept += 1
+    return kept
+
+
+@njit(cache=True, nogil=True)
+def _read_run(offsets, bits, first):  # type: ignore[no-untyped-def]
+    """The neighbouring columns of one row that agree from ``first``: end, mean offset, weight and bits."""
+    nu, iu, total, mean, word = len(offsets), first, 0.0, 0.0, np.uint64(0)
+    while iu < nu and not np.isnan(offsets[iu]):
+        if total > 0 and abs(offsets[iu] - mean / total) > 0.8:
+            break
+        p = float(popcount(bits[iu]))
+        mean += p * offsets[iu]
+        total += p
+        word |= bits[iu]
+        iu += 1
+    for ju in (first - 1, iu):  # the neighbours hold the tails of the noise
+        if 0 <= ju < nu:
+            word |= bits[ju]
+    return iu, mean / total, total, word
+
+
+@njit(cache=True, nogil=True)
+def _nearest_chain(u, active, recent, mean, last, row, tolerance):  # type: ignore[no-untyped-def]
+    """The chain nearest to ``u`` that has no node in this row; -1 where none is within ``tolerance``."""
+    best, best_d = -1, tolerance
+    for a in range(len(active)):
+        c = active[a]
+        d = max(abs(recent[c] - u), abs(mean[c] - u))
+        if last[c] < row and d < best_d:
+            best, best_d = c, d
+    return best
