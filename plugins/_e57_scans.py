@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -68,37 +69,39 @@ def check_file(path: Path) -> None:
         raise InputError(f"{path.name} defines XML entities of its own, which is refused: E57 has none.")
 
 
-def open_image(path: Path) -> Any:
-    """libE57's image file; what it raises is one sentence."""
+@contextmanager
+def opened_image(path: Path) -> Iterator[Any]:
+    """libE57's image file for one pass: opening it parses the description of all scans."""
     libe57 = import_library("pye57", "pye57", "E57").libe57
     with damaged(path.name, "E57 file"):
-        return libe57.ImageFile(str(path), "r")
+        image = libe57.ImageFile(str(path), "r")
+    try:
+        yield image
+    finally:
+        image.close()
 
 
 def list_scans(path: Path) -> list[E57Scan]:
     """The scans that hold points, in the order of the file."""
-    image = open_image(path)
-    try:
-        with damaged(path.name, "E57 file"):
-            root = image.root()
-            data = root["data3D"] if root.isDefined("data3D") else []
-            scans = [_describe(path, data[k], k) for k in range(len(data))]
-    finally:
-        image.close()
+    with opened_image(path) as image, damaged(path.name, "E57 file"):
+        root = image.root()
+        data = root["data3D"] if root.isDefined("data3D") else []
+        scans = [_describe(path, data[k], k) for k in range(len(data))]
     return [scan for scan in scans if scan.count > 0]
 
 
-def read_scan(path: Path, scan: E57Scan, size: int = CHUNK_POINTS) -> Iterator[tuple[Any, Any]]:
+def read_scan(
+    path: Path, image: Any, scan: E57Scan, size: int = CHUNK_POINTS
+) -> Generator[tuple[Any, Any], None, None]:
     """(N, 3) float64 valid points in the scan's frame and their (N,) time stamps or None, in buffers.
 
     Raises :class:`InputError` where fewer records follow than the file promises.
     """
     names = [*(SPHERICAL if scan.spherical else CARTESIAN)]
     names += [name for name in (*INVALID, "timeStamp") if name in scan.fields]
-    image = open_image(path)
+    with damaged(path.name, "E57 file"):
+        columns, reader = _reader(image, scan, names, min(size, scan.count))
     try:
-        with damaged(path.name, "E57 file"):
-            columns, reader = _reader(image, scan, names, min(size, scan.count))
         left = scan.count
         while left > 0:
             with damaged(path.name, "E57 file"):
@@ -111,7 +114,7 @@ def read_scan(path: Path, scan: E57Scan, size: int = CHUNK_POINTS) -> Iterator[t
             left -= read
             yield _valid_points({name: column[:read] for name, column in columns.items()}, scan.spherical)
     finally:
-        image.close()
+        reader.close()  # an image has one reader at a time, and samples leave theirs early
 
 
 def _reader(image: Any, scan: E57Scan, names: list[str], size: int) -> tuple[dict[str, Any], Any]:

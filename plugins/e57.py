@@ -7,12 +7,13 @@ and the scan's number the ``scan_id``. A merged cloud has no viewpoint, and gets
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, read_scan
+from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, opened_image, read_scan
 
 from floorplan_core.api import (
     EmptyInput,
@@ -112,9 +113,10 @@ def _without_sensors(source: PointSource) -> PointSource:
 
 
 def _chunks(path: Path, scans: list[E57Scan], sensors: bool) -> Iterator[RawChunk]:
-    for row, scan in enumerate(scans):
-        for points, stamps in read_scan(path, scan):
-            yield _chunk(points, stamps, scan, row if sensors else None)
+    with opened_image(path) as image:
+        for row, scan in enumerate(scans):
+            for points, stamps in read_scan(path, image, scan):
+                yield _chunk(points, stamps, scan, row if sensors else None)
 
 
 def _chunk(points: np.ndarray, stamps: np.ndarray | None, scan: E57Scan, row: int | None) -> RawChunk:
@@ -126,9 +128,11 @@ def _sample(path: Path, scans: list[E57Scan]) -> RawChunk:
     """Points from the beginning of scans that are spread over the file, in file coordinates."""
     rows = np.unique(np.linspace(0, len(scans) - 1, SAMPLE_SCANS).astype(int)).tolist()
     parts = []
-    for row in rows:
-        points, stamps = next(iter(read_scan(path, scans[row], SAMPLE_READ // len(rows))))
-        parts.append(_chunk(points, stamps, scans[row], row))
+    with opened_image(path) as image:
+        for row in rows:
+            with closing(read_scan(path, image, scans[row], SAMPLE_READ // len(rows))) as buffers:
+                points, stamps = next(buffers)
+            parts.append(_chunk(points, stamps, scans[row], row))
     if not any(len(part.points) for part in parts):
         raise EmptyInput(f"All points of {path.name} that were looked at are marked as invalid.")
     return spread_sample(parts)
