@@ -162,7 +162,7 @@ def link_chains(offsets, bits, tolerance, gap):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _keep_recent(active, count, last, least):  # type: ignore[no-untyped-def]
-    """Moves the chains met in row ``least`` or later to the front of ``active``; returns how many they are."""
+    """Move the chains met in row ``least`` or later to the front of ``active``; returns how many they are."""
     kept = 0
     for a in range(count):
         if last[active[a]] >= least:
