@@ -222,7 +222,7 @@ def test_any_floats_give_a_plan_or_a_sentence(points):
         planner.plan()
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(
     seed=st.integers(0, 2**20),
     scale=st.sampled_from([0.5, 3.0, 10.0, 40.0]),

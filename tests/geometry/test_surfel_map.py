@@ -33,7 +33,7 @@ def _reference(points: np.ndarray) -> dict[tuple[int, ...], np.ndarray]:
 
 
 def test_sums_equal_those_of_numpy():
-    points = np.random.default_rng(1).normal(0, 0.3, (20_000, 3))
+    points = np.random.default_rng(1).normal(0, 0.3, (6_000, 3))
     surfels = _filled(points).surfels()
     expected = _reference(points)
     assert len(surfels) == len(expected)

@@ -41,7 +41,7 @@ def _error(frame: ManhattanFrame, turned: np.ndarray) -> tuple[float, float]:
     return abs((yaw + 45) % 90 - 45), tilt
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(yaw=st.floats(-180, 180), roll=st.floats(-10, 10), pitch=st.floats(-10, 10))
 def test_any_yaw_and_tilt_is_found(building, yaw, roll, pitch):
     turned = rotation(yaw, roll, pitch)

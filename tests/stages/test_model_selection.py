@@ -23,7 +23,7 @@ def _fewest(low: np.ndarray, high: np.ndarray) -> int:
     raise AssertionError("unreachable: each interval's own right end pierces it")
 
 
-@settings(max_examples=400)
+@settings(max_examples=300)
 @given(INTERVALS)
 def test_the_number_of_groups_is_the_smallest_possible(intervals):
     low = np.array([a for a, _ in intervals], dtype=float) / 4
