@@ -205,6 +205,9 @@ class RegionsConfig(Section):
     )
     min_area: float = setting(0.8, "m2", "Smaller regions are dropped.", ge=0, le=100)
     sliver: float = setting(0.3, "m", "Parts narrower than this are not part of a region.", ge=0, le=2)
+    wall_support: float = setting(
+        0.4, "m2", "Walls of more observed surface than this never lie inside a region.", ge=0, le=20
+    )
 
 
 class LabelsConfig(Section):

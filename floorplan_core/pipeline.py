@@ -15,13 +15,23 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
-from floorplan_core.model import FloorPlan, LocalFrame, PointChunk, Reconstruction, Region, Trajectory
+from floorplan_core.model import (
+    Door,
+    FloorPlan,
+    LocalFrame,
+    OccupancyGrid,
+    PointChunk,
+    Reconstruction,
+    RectangleCover,
+    Region,
+    Trajectory,
+)
 from floorplan_core.observer import Observer
 from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
 from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
-from floorplan_core.stages.layout_planes import find_planes, recessed
+from floorplan_core.stages.layout_planes import find_planes, pairable
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
@@ -40,6 +50,29 @@ Float = NDArray[np.float64]
 T = TypeVar("T")
 
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
+LEFT_OUT = 1.0  # m2 of free space in no region, from which the user is told
+
+
+class StageRunner:
+    """Runs stage after stage: progress, wall time, cancellation, and what an earlier run made already."""
+
+    def __init__(self, observer: Observer, given: Sequence[object], integrating: float) -> None:
+        self.seconds = {"integrate": integrating}
+        self._observer = observer
+        self._given = iter(given)
+
+    def __call__(self, name: str, work: Callable[[], T]) -> T:
+        """The result of ``work``, or the next of the given results; the time is added to stage ``name``."""
+        self._observer.check_cancelled()
+        if (known := next(self._given, None)) is not None:
+            return cast(T, known)
+        self._observer.stage_started(name)
+        began = time.perf_counter()
+        result = work()
+        took = time.perf_counter() - began
+        self.seconds[name] = self.seconds.get(name, 0.0) + took
+        self._observer.stage_finished(name, took, result)
+        return result
 
 
 class FloorPlanner:
@@ -79,33 +112,11 @@ class FloorPlanner:
             are (:mod:`floorplan_core.restart`).
         """
         self.map.settle()
-        seen = self.map.surfels
-        if not given and len(seen) < MIN_SURFELS:
-            raise NoPlanError(
-                f"Too little to make a plan of: {seen.points} points in {len(seen)} voxels of "
-                f"{seen.size:g} m; check the unit (--set input.unit=...) or give more scans."
-            )
-        config, warnings = self.config, list[str]()
-        seconds = {"integrate": self.map.seconds}
-        if self.map.planar:
-            warnings.append(
-                "A planar scan: walls and furniture alike are taken to stand from floor to ceiling."
-            )
-        earlier = iter(given)
+        if not given:
+            self._require_room()
+        config, stage = self.config, StageRunner(self.observer, given, self.map.seconds)
 
-        def stage(name: str, work: Callable[[], T]) -> T:
-            self.observer.check_cancelled()
-            if (known := next(earlier, None)) is not None:
-                return cast(T, known)
-            self.observer.stage_started(name)
-            began = time.perf_counter()
-            result = work()
-            took = time.perf_counter() - began
-            seconds[name] = seconds.get(name, 0.0) + took
-            self.observer.stage_finished(name, took, result)
-            return result
-
-        surfels = stage("frame", seen.surfels)
+        surfels = stage("frame", self.map.surfels.surfels)
         frame = stage("frame", lambda: estimate_frame(surfels, config.frame))
         evidence = stage(
             "occupancy",
@@ -121,9 +132,7 @@ class FloorPlanner:
         )
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
         grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
-        walls = blockers(planes, doors)
-        behind = recessed(planes, config.planes.recess)
-        paired = [p for p in planes if p.support >= config.planes.min_support and p.id not in behind]
+        walls, paired = blockers(planes, doors), pairable(planes, config.planes)
         candidates = stage(
             "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, self.observer)
         )
@@ -133,42 +142,66 @@ class FloorPlanner:
             "regions", lambda: build_regions(cover, planes, segments, doors, grid, config.regions)
         )
         regions, doors = stage("regions", lambda: connect_doors(regions, doors))
+        regions = stage("labels", lambda: label_regions(regions, self._classifier(), config))
+        regions, doors = self._named(regions, doors)
+        points = stage("regions", lambda: thin_wall_points(evidence, segments))
+
+        self.observer.check_cancelled()
+        self._names, self._unused = regions, max(self._unused, next_number(regions))
+        return FloorPlan(
+            frame=frame,
+            local_frame=self.local_frame,
+            segments=segments,
+            planes=planes,
+            doors=doors,
+            grid=grid,
+            candidates=candidates,
+            cover=cover,
+            regions=regions,
+            wall_points=points,
+            trajectory=evidence.path,
+            source=self.source,
+            point_count=self.map.surfels.points,
+            config=config,
+            warnings=self._warnings(cover, grid),
+            seconds=stage.seconds,
+        )
+
+    def _require_room(self) -> None:
+        """Raise :class:`NoPlanError` where there is too little to begin with."""
+        seen = self.map.surfels
+        if len(seen) < MIN_SURFELS:
+            raise NoPlanError(
+                f"Too little to make a plan of: {seen.points} points in {len(seen)} voxels of "
+                f"{seen.size:g} m; check the unit (--set input.unit=...) or give more scans."
+            )
+
+    def _named(
+        self, regions: tuple[Region, ...], doors: tuple[Door, ...]
+    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+        """The regions with the names that they had in the plan before; at least one there must be."""
         if not regions:
             raise NoPlanError(
                 "No region came out: the free space seen is not enclosed by any pair of walls; "
                 "scan more walls, or raise candidates.max_ratio."
             )
-        regions = stage("labels", lambda: label_regions(regions, self._classifier(), config))
-        if self._names:
-            regions, doors = keep_names(self._names, regions, doors, self._unused)
+        return keep_names(self._names, regions, doors, self._unused) if self._names else (regions, doors)
+
+    def _warnings(self, cover: RectangleCover, grid: OccupancyGrid) -> tuple[str, ...]:
+        """What the user should know about this plan; told to the observer too."""
+        warnings = []
+        if self.map.planar:
+            warnings.append(
+                "A planar scan: walls and furniture alike are taken to reach from floor to ceiling."
+            )
         left = int(cover.uncovered.sum()) * grid.cell**2
-        if left > 1.0:
+        if left > LEFT_OUT:
             warnings.append(
                 f"{left:.1f} m2 of free space are in no region: no rectangle of walls encloses them."
             )
-        points = stage("regions", lambda: thin_wall_points(evidence, segments))
-        self.observer.check_cancelled()
-        self._names, self._unused = regions, max(self._unused, next_number(regions))
         for text in warnings:
             self.observer.warning(text)
-        return FloorPlan(
-            frame,
-            self.local_frame,
-            segments,
-            planes,
-            doors,
-            grid,
-            candidates,
-            cover,
-            regions,
-            points,
-            evidence.path,
-            self.source,
-            seen.points,
-            config,
-            tuple(warnings),
-            seconds,
-        )
+        return tuple(warnings)
 
     def _classifier(self) -> RegionClassifier:
         from floorplan_core.stages.labels import PaperClassifier

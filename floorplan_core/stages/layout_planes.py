@@ -63,6 +63,12 @@ def find_planes(
     return tuple(named[s.id] for s in segments), tuple(planes)
 
 
+def pairable(planes: Sequence[LayoutPlane], config: PlanesConfig) -> list[LayoutPlane]:
+    """The planes that may bound a rectangle: enough was seen of them, and they are no recess of another."""
+    behind = recessed(planes, config.recess)
+    return [p for p in planes if p.support >= config.min_support and p.id not in behind]
+
+
 def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:
     """Ids of the planes that lie in a recess of another: window panes, shut leaves, niches in a wall.
 

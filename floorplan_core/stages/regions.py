@@ -23,6 +23,7 @@ from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, witho
 from floorplan_core.model import Door, LayoutPlane, LayoutSegment, OccupancyGrid, RectangleCover, Region
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
+from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
 
 Float = NDArray[np.float64]
 
@@ -41,7 +42,11 @@ def build_regions(
 ) -> tuple[Region, ...]:
     """The regions in reading order (top to bottom, left to right), without label or turning distance."""
     groups = connected_groups(cover.bounds, separators(planes, doors))
-    shapes = [_union(cover.bounds[rows], bridges, config.sliver) for rows, bridges in groups]
+    standing = standing_walls(planes, config.wall_support)
+    shapes = [
+        open_polygon(cut_walls(_union(cover.bounds[rows], bridges), standing), config.sliver)
+        for rows, bridges in groups
+    ]
     walls = WallSurfaces(planes, segments)
     pieces: list[tuple[Any, NDArray[np.int64]]] = []
     for shape, (rows, _) in zip(shapes, groups, strict=True):
@@ -56,9 +61,9 @@ def build_regions(
     return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(kept))
 
 
-def _union(bounds: Float, bridges: Float, sliver: float) -> Any:
+def _union(bounds: Float, bridges: Float) -> Any:
     """The union of one group and of the boxes that join it."""
-    return open_polygon(shapely.union_all(shapely.box(*np.concatenate([bounds, bridges]).T)), sliver)
+    return shapely.union_all(shapely.box(*np.concatenate([bounds, bridges]).T))
 
 
 def _disjoint(
