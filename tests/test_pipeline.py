@@ -49,6 +49,7 @@ SURVEYS = {
     "ring lidar, heavy furniture": _spec("ring", "lidar", 13, furniture="heavy"),
     "straight camera, 40 % explored": _spec("straight", "camera", 14, explore=0.4),
     "L lidar, 60 % explored": _spec("l", "lidar", 15, explore=0.6),
+    "T camera, a wall that ends in the open": _spec("t", "camera", 1008, 0.3, "heavy"),
 }
 
 
