@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from floorplan_core.api import (
-    CHUNK_POINTS,
     SAMPLE_POINTS,
     EmptyInput,
     InputError,
@@ -35,6 +34,7 @@ BINARY, FULL = b"# Octomap OcTree binary file", b"# Octomap OcTree file"
 RECORDS = {"OcTree": 4, "ColorOcTree": 7, "OcTreeStamped": 8}  # bytes of a node's value in a .ot file
 MAX_HEADER_BYTES = 1 << 16
 BATCH_LEAVES = 1 << 16
+BATCH_VOXELS = 1 << 18  # expanded at a time: finding their places takes six times their coordinates
 MAX_VOXELS = 1 << 28  # of the finest size: a storey of 10,000 m2 at 5 cm
 _OCCUPIED = 1  # state of a leaf, as in ``_octree``
 RESOLUTIONS = (1e-3, 10.0)  # metres: what a map of a building may have
@@ -158,7 +158,7 @@ def _leaves(path: Path, header: OctoMapHeader) -> Iterator[np.ndarray[Any, np.dt
 
 
 def _chunks(path: Path, header: OctoMapHeader) -> Iterator[RawChunk]:
-    """Occupied voxels as points, free ones beside them; at most ``CHUNK_POINTS`` of each at a time."""
+    """Occupied voxels as points, free ones beside them; at most ``BATCH_VOXELS`` of each at a time."""
     for leaves in _leaves(path, header):
         hit = leaves[:, 4] == _OCCUPIED
         occupied = _expand(leaves[hit], header.resolution)
@@ -172,12 +172,12 @@ def _chunks(path: Path, header: OctoMapHeader) -> Iterator[RawChunk]:
 
 
 def _expand(leaves: Any, resolution: float) -> Iterator[Any]:
-    """Centres of the finest voxels of the leaves, at most ``CHUNK_POINTS`` at a time."""
+    """Centres of the finest voxels of the leaves, at most ``BATCH_VOXELS`` at a time."""
     from floorcast_plugins import _octree
 
     total = int((8 ** leaves[:, 3]).sum())
-    for first in range(0, total, CHUNK_POINTS):
-        yield _octree.voxels(leaves, np.arange(first, min(total, first + CHUNK_POINTS)), resolution)
+    for first in range(0, total, BATCH_VOXELS):
+        yield _octree.voxels(leaves, np.arange(first, min(total, first + BATCH_VOXELS)), resolution)
 
 
 def _sample(path: Path, header: OctoMapHeader, occupied: int) -> RawChunk:
