@@ -99,7 +99,7 @@ def test_what_is_written_comes_back(tmp_path, form):
 def test_large_leaves_come_in_chunks(tmp_path, monkeypatch):
     import floorcast_plugins.octomap as module
 
-    monkeypatch.setattr(module, "CHUNK_POINTS", 1000)
+    monkeypatch.setattr(module, "BATCH_VOXELS", 1000)
     leaves = {(32768, 32768, 32768, 5): OCCUPIED, (32768 + 32, 32768, 32768, 5): FREE}
     chunks = list(opened(write_bt(tmp_path / "a.bt", leaves)).chunks())
     assert max(max(len(c.points), len(c.free)) for c in chunks) <= 1000
