@@ -1,7 +1,7 @@
-"""Walls that end in the open: the rectangles beside such a wall join past its end, and the union would swallow it.
+"""Walls that end in the open: the rectangles beside one join past its end, and the union would swallow it.
 
-A region must hold no seen wall in its interior (trap 5): what lies deeper in it than a tolerance is cut out, as
-thick as a wall is.
+A region must hold no seen wall in its interior (trap 5): what lies deeper in it than a tolerance is cut out,
+as thick as a wall is.
 """
 
 from __future__ import annotations
