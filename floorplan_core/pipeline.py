@@ -116,11 +116,10 @@ class FloorPlanner:
             self._require_room()
         config, stage = self.config, StageRunner(self.observer, given, self.map.seconds)
 
-        surfels = stage("frame", self.map.surfels.surfels)
-        frame = stage("frame", lambda: estimate_frame(surfels, config.frame))
+        frame = stage("frame", lambda: estimate_frame(self.map.sample(), config.frame))
         evidence = stage(
             "occupancy",
-            lambda: gather_evidence(surfels, self.map.rays, frame, self.map.path(), config.voxels),
+            lambda: gather_evidence(self.map.surfels, self.map.rays, frame, self.map.path(), config.voxels),
         )
         segments, rows = stage("segments", lambda: find_segments(evidence, config.segments))
         segments, planes = stage(

@@ -19,7 +19,7 @@ from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.planar import is_planar, lift
 from floorplan_core.geometry.ray_carving import MissMap
-from floorplan_core.geometry.surfel_map import SurfelMap
+from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.model import PointChunk, Trajectory
 
 Float = NDArray[np.float64]
@@ -27,6 +27,7 @@ Points = NDArray[np.float64] | NDArray[np.float32]
 Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
+SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
 
 
@@ -92,6 +93,10 @@ class SurveyMap:
             self._lattice = 0.0 if self.planar else lattice_spacing(first)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
+
+    def sample(self) -> Surfels:
+        """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
+        return self.surfels.surfels(every=max(1, len(self.surfels) // SAMPLE_SURFELS))
 
     def path(self) -> Float:
         """(M, 3) sensor positions so far, local frame."""

@@ -9,6 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.raster import cells_to_polygon
+
 Float = NDArray[np.float64]
 
 _SAME = 1e-6  # m, coordinates closer than this are equal
@@ -47,6 +49,21 @@ def map_polygon(polygon: Any, move: Callable[[Float], Float]) -> Any:
     shell = move(np.asarray(polygon.exterior.coords))
     holes = [move(np.asarray(ring.coords)) for ring in polygon.interiors]
     return shapely.Polygon(shell, [h for h in holes if len(h) >= 4])
+
+
+def union_boxes(boxes: Float) -> Any:
+    """The union of (K, 4) boxes x0, y0, x1, y1, exactly: painted on the grid of their own coordinates."""
+    xs, column = np.unique(boxes[:, [0, 2]], return_inverse=True)
+    ys, row = np.unique(boxes[:, [1, 3]], return_inverse=True)
+    mask = np.zeros((len(ys), len(xs)), dtype=bool)
+    for (x0, x1), (y0, y1) in zip(column.reshape(-1, 2), row.reshape(-1, 2), strict=True):
+        mask[y0:y1, x0:x1] = True
+
+    def place(index: Float) -> Float:
+        cells = np.rint(index).astype(np.int64)
+        return np.column_stack([xs[cells[:, 0]], ys[cells[:, 1]]])
+
+    return shapely.transform(cells_to_polygon(mask, np.zeros(2), 1.0), place)
 
 
 def open_polygon(polygon: Any, width: float) -> Any:

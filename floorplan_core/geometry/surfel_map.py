@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, block_slot, pack
+from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, block_slot, pack, spread
 
 Float = NDArray[np.float64]
 
@@ -22,6 +22,7 @@ STEPS = 100  # a voxel is divided into this many steps a side for the sums: 0.5 
 VIEW_STEPS = 64  # resolution of the unit view direction
 COLUMNS = 9  # count, sums of x, y, z, sums of xx, xy, yy, sums of the view's x, y
 MOST_POINTS = 200_000  # of a voxel: its sums of squares stay within 32 bits, its mean is long settled
+BLOCK = 5  # voxels on a side of the blocks of a sample
 _START = 1 << 16
 
 
@@ -34,6 +35,7 @@ class Surfels:
     variance: Float  # (N, 3) m2: xx, xy, yy of the points about the centroid
     view: Float  # (N, 2) mean of the unit directions from the points to their sensor; 0 where unknown
     size: float  # metres, side of a voxel
+    every: int = 1  # one in so many blocks of voxels is here
 
     def __len__(self) -> int:
         return len(self.count)
@@ -95,11 +97,26 @@ class SurfelMap:
         self._row = np.zeros(2 * capacity, dtype=np.int32)
         _fill(self._keys, self._used, self._table, self._row)
 
-    def surfels(self) -> Surfels:
-        """The map as arrays, in the order in which the voxels were first seen."""
+    def surfels(self, every: int = 1) -> Surfels:
+        """The map as arrays, in the order in which the voxels were first seen.
+
+        With ``every`` > 1 only one in so many blocks of voxels, whole and chosen by a hash of its place.
+        """
+        keys, sums = self._keys[: self._used], self._sums[: self._used]
+        if every > 1:
+            rows = np.flatnonzero(_in_chosen_block(keys, every))
+            keys, sums = keys[rows], sums[rows]
+        centroid, variance, view = _unpack(keys, sums, self.size)
+        return Surfels(centroid, sums[:, 0].copy(), variance, view, self.size, every)
+
+    def turned(self, rotation: Float, lift: float) -> tuple[Float, NDArray[np.int32], Float, Float]:
+        """All surfels in another frame: centroids (N, 3) with ``lift`` (metres) added to their height, counts,
+        variances along the new x and y (N, 2), views (N, 2)."""
         sums = self._sums[: self._used]
-        centroid, variance, view = _unpack(self._keys[: self._used], sums, self.size)
-        return Surfels(centroid, sums[:, 0].copy(), variance, view, self.size)
+        centroid, variance, view = _turned(
+            self._keys[: self._used], sums, self.size, np.ascontiguousarray(rotation), lift
+        )
+        return centroid, sums[:, 0].copy(), variance, view
 
 
 @njit(cache=True, nogil=True)
@@ -174,3 +191,35 @@ def _unpack(keys, sums, size):  # type: ignore[no-untyped-def]
         view[i, 0] = sums[i, 7] / (c * VIEW_STEPS)
         view[i, 1] = sums[i, 8] / (c * VIEW_STEPS)
     return centroid, variance, view
+
+
+@njit(cache=True, nogil=True)
+def _in_chosen_block(keys, every):  # type: ignore[no-untyped-def]
+    low = (1 << 21) - 1
+    out = np.empty(len(keys), dtype=np.bool_)
+    for i in range(len(keys)):
+        x, y, z = (keys[i] >> 42) - BIAS, ((keys[i] >> 21) & low) - BIAS, (keys[i] & low) - BIAS
+        out[i] = (spread(pack(x // BLOCK, y // BLOCK, z // BLOCK)) >> 8) % every == 0
+    return out
+
+
+@njit(cache=True, nogil=True)
+def _turned(keys, sums, size, r, lift):  # type: ignore[no-untyped-def]
+    n, low, step = len(keys), (1 << 21) - 1, size / STEPS
+    xyz, spread_, view = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
+    for i in range(n):
+        c = 1.0 / sums[i, 0]
+        mx, my, mz = sums[i, 1] * c, sums[i, 2] * c, sums[i, 3] * c
+        x = ((keys[i] >> 42) - BIAS) * size + (mx + 0.5) * step
+        y = (((keys[i] >> 21) & low) - BIAS) * size + (my + 0.5) * step
+        z = ((keys[i] & low) - BIAS) * size + (mz + 0.5) * step
+        for k in range(3):
+            xyz[i, k] = r[k, 0] * x + r[k, 1] * y + r[k, 2] * z
+        xyz[i, 2] += lift
+        xx, xy, yy = sums[i, 4] * c - mx * mx, sums[i, 5] * c - mx * my, sums[i, 6] * c - my * my
+        vx, vy = sums[i, 7] * c / VIEW_STEPS, sums[i, 8] * c / VIEW_STEPS
+        for k in range(2):
+            a, b = r[k, 0], r[k, 1]
+            spread_[i, k] = (a * a * xx + 2 * a * b * xy + b * b * yy) * step * step
+            view[i, k] = a * vx + b * vy
+    return xyz, spread_, view

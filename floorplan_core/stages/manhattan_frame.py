@@ -28,7 +28,7 @@ Angle = TypeVar("Angle", float, NDArray[np.float64])  # radians
 _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
 _SEARCH = math.radians(3)  # normals are right to this; the search for sharp walls covers it
 _OFFSET_BIN = 0.02  # m, of the projection that is to be sharp
-_SAMPLE = 60_000  # surfels that the search looks at
+_SAMPLE = 30_000  # surfels that the search looks at
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
@@ -41,8 +41,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     level = _rotation_to_z(up)
     n = normals.normal @ level.T
     vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
-    share = float(np.count_nonzero(normals.cell_of >= 0)) / max(float(normals.weight.sum()), 1.0)
-    area = float(normals.weight[vertical].sum()) * surfels.size**2 * max(share, 1.0)
+    area = float(normals.weight[vertical].sum()) * surfels.size**2 * surfels.every
     if area < _MIN_WALL_AREA:
         raise NoPlanError(_no_walls(area, len(surfels), float(np.ptp(surfels.centroid @ up))))
     angle = np.arctan2(n[vertical, 1], n[vertical, 0])

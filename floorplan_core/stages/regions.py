@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import RegionsConfig
 from floorplan_core.geometry.raster import polygon_window
-from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, without_slits
+from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, union_boxes, without_slits
 from floorplan_core.model import Door, LayoutPlane, LayoutSegment, OccupancyGrid, RectangleCover, Region
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
@@ -63,7 +63,7 @@ def build_regions(
 
 def _union(bounds: Float, bridges: Float) -> Any:
     """The union of one group and of the boxes that join it."""
-    return shapely.union_all(shapely.box(*np.concatenate([bounds, bridges]).T))
+    return union_boxes(np.concatenate([bounds, bridges]))
 
 
 def _disjoint(

@@ -15,7 +15,7 @@ from floorplan_core.config import VoxelConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.columns import LEVEL, LEVELS, hit_columns
 from floorplan_core.geometry.ray_carving import MissMap
-from floorplan_core.geometry.surfel_map import Surfels
+from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.model import ManhattanFrame
 from floorplan_core.model.evidence import Evidence
 
@@ -28,13 +28,11 @@ _FLOOR_LEVELS = np.uint64(0b11)  # a column's floor is seen in the two lowest le
 
 
 def gather_evidence(
-    surfels: Surfels, misses: MissMap, frame: ManhattanFrame, path: Float, config: VoxelConfig
+    surfels: SurfelMap, misses: MissMap, frame: ManhattanFrame, path: Float, config: VoxelConfig
 ) -> Evidence:
     """Turn the maps into the manhattan frame; ``path`` is (M, 3) sensor positions, local frame."""
     viewpoints = misses.blocks > 0
-    xyz, view, spread = turn_surfels(
-        surfels.centroid, surfels.view, surfels.variance, np.ascontiguousarray(frame.rotation), frame.floor_z
-    )
+    xyz, count, spread, view = surfels.turned(frame.rotation, -frame.floor_z)
     path_xy = frame.to_manhattan(path)[:, :2] if len(path) else np.zeros((0, 2))
     cell = config.size
     origin, shape = _grid(xyz, path_xy, cell)
@@ -52,7 +50,7 @@ def gather_evidence(
     return Evidence(
         frame,
         xyz,
-        surfels.count,
+        count,
         spread,
         view,
         surfels.size,
@@ -65,26 +63,6 @@ def gather_evidence(
         path_xy,
         viewpoints,
     )
-
-
-@njit(cache=True, nogil=True)
-def turn_surfels(centroid, view, variance, rotation, floor):  # type: ignore[no-untyped-def]
-    """Centroids (z above the floor), views and the variances along x and y, in the frame of ``rotation``."""
-    n, r = len(centroid), rotation
-    xyz, turned, spread = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
-    for i in range(n):
-        x, y, z = centroid[i, 0], centroid[i, 1], centroid[i, 2]
-        for k in range(3):
-            xyz[i, k] = r[k, 0] * x + r[k, 1] * y + r[k, 2] * z
-        xyz[i, 2] -= floor
-        for k in range(2):
-            turned[i, k] = r[k, 0] * view[i, 0] + r[k, 1] * view[i, 1]
-            spread[i, k] = (
-                r[k, 0] ** 2 * variance[i, 0]
-                + 2 * r[k, 0] * r[k, 1] * variance[i, 1]
-                + r[k, 1] ** 2 * variance[i, 2]
-            )
-    return xyz, turned, spread
 
 
 def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]:

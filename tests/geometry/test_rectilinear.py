@@ -14,6 +14,7 @@ from floorplan_core.geometry.rectilinear import (
     move_sides,
     open_polygon,
     polygons_of,
+    union_boxes,
     without_slits,
 )
 
@@ -136,3 +137,14 @@ def test_slits_are_filled_and_courtyards_kept():
     room = shapely.box(0, 0, 9, 9).difference(shapely.box(2, 2, 4, 2.001)).difference(shapely.box(5, 5, 6, 7))
     assert _same(without_slits(room, 0.02), shapely.box(0, 0, 9, 9).difference(shapely.box(5, 5, 6, 7)))
     assert _same(without_slits(shapely.box(0, 0, 1, 1), 0.02), shapely.box(0, 0, 1, 1))
+
+
+def test_the_union_of_boxes_is_that_of_shapely():
+    rng = np.random.default_rng(5)
+    for _ in range(50):
+        corner = np.round(rng.uniform(0, 8, (rng.integers(1, 12), 2)), 1)
+        boxes = np.hstack([corner, corner + np.round(rng.uniform(0.1, 4, corner.shape), 1)])
+        union = union_boxes(boxes)
+        wanted = shapely.union_all(shapely.box(*boxes.T))
+        assert union.is_valid
+        assert union.symmetric_difference(wanted).area < 1e-9
