@@ -33,6 +33,12 @@ def use_kernel_cache() -> None:
         sys.modules["numba"].config.CACHE_DIR = str(folder)
 
 
+def kernels_compiled() -> bool:
+    """True where an earlier run left compiled kernels of this state of the sources."""
+    folder = os.environ.get("NUMBA_CACHE_DIR")
+    return folder is not None and next(Path(folder).rglob("*.nbi"), None) is not None
+
+
 def source_digest() -> str:
     """12 hexadecimal digits of all sources that hold kernels."""
     package, digest = Path(__file__).parent, hashlib.sha1(usedforsecurity=False)

@@ -27,6 +27,7 @@ Points = NDArray[np.float64] | NDArray[np.float32]
 Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
+FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
 
@@ -71,6 +72,8 @@ class SurveyMap:
 
         Raises :class:`InputError` where the trajectory has no such row.
         """
+        if chunk.free is not None and len(chunk.free):
+            self._mark_free(chunk.free, chunk.free_size)
         if chunk.scan_id is None or trajectory is None:
             self._integrate(chunk.points, np.full(len(chunk.points), -1, dtype=np.int32), np.zeros((0, 3)))
         elif len(chunk.scan_id):
@@ -105,6 +108,12 @@ class SurveyMap:
             trajectory, first, last = self._rows
             parts.append(trajectory.origins[first : last + 1])
         return np.concatenate(parts)
+
+    def _mark_free(self, centres: Points, side: float) -> None:
+        """Free voxels that the file itself knows (an OctoMap): they need no viewpoints."""
+        began = time.perf_counter()
+        self.rays.mark(subdivide(centres, side, self.surfels.size), FILE_RAYS)
+        self.seconds += time.perf_counter() - began
 
     def _follow(self, trajectory: Trajectory, first: int, last: int) -> None:
         """Widen the part of the trajectory that was used: the path does not depend on the chunks."""

@@ -181,9 +181,8 @@ class Run:
     error: FloorPlanError | None
 
     def __getitem__(self, stage: str) -> Any:
-        """The first result of a stage (of occupancy: the evidence); of frame the second, after surfels."""
-        number = 1 if stage == "frame" else 0
-        return [result for name, result in self.steps if name == stage][number]
+        """The first result of a stage (of occupancy: the evidence)."""
+        return next(result for name, result in self.steps if name == stage)
 
 
 def run(given: Survey, config: Config | None = None, trajectory: bool = True) -> Run:

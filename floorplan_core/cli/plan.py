@@ -133,10 +133,11 @@ def make_plan(
 
 
 def announce_compilation(observer: CommandObserver) -> None:
-    """Say why the very first run takes longer: no compiled kernel lies beside the code yet."""
-    import floorplan_core
+    """Say why the first run takes longer: no kernels of this version are compiled yet."""
+    from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
 
-    if next(Path(floorplan_core.__file__).parent.rglob("*.nbi"), None) is None:
+    use_kernel_cache()
+    if not kernels_compiled():
         observer.console.message("The first run compiles the kernels, which takes about a minute.")
 
 

@@ -71,6 +71,16 @@ class MissMap:
         _rehash(self._keys, self._ids, keys, ids)
         self._keys, self._ids, self._pool = keys, ids, pool
 
+    def mark(self, points: NDArray[Any], rays: int) -> None:
+        """Count ``rays`` rays through the voxels of (N, 3) points that are known to be free."""
+        start = 0
+        while start < len(points):
+            start, self._used = _mark(
+                points, rays, self.size, self._keys, self._ids, self._pool, self._used, start
+            )
+            if start < len(points):
+                self._grow()
+
     def column_bits(
         self,
         rotation: Float,
@@ -163,6 +173,26 @@ def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used
             x += sx
             y += sy
             z += sz
+    return len(points), used
+
+
+@njit(cache=True, nogil=True)
+def _mark(points, rays, size, keys, ids, pool, used, start):  # type: ignore[no-untyped-def]
+    edge = (BIAS - BLOCK) * size
+    for i in range(start, len(points)):
+        px, py, pz = points[i, 0], points[i, 1], points[i, 2]
+        if not (abs(px) < edge and abs(py) < edge and abs(pz) < edge):  # also leaves out what is not a number
+            continue
+        x, y, z = int(np.floor(px / size)), int(np.floor(py / size)), int(np.floor(pz / size))
+        key = pack(x >> 4, y >> 4, z >> 4)
+        slot = _find(key, keys)
+        if keys[slot] == EMPTY:
+            if used >= len(pool):  # the caller makes room and resumes here
+                return i, used
+            keys[slot], ids[slot] = key, used
+            used += 1
+        at = ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)
+        pool[ids[slot], at] = min(int(_MOST), int(pool[ids[slot], at]) + rays)
     return len(points), used
 
 

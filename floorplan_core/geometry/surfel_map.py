@@ -110,8 +110,10 @@ class SurfelMap:
         return Surfels(centroid, sums[:, 0].copy(), variance, view, self.size, every)
 
     def turned(self, rotation: Float, lift: float) -> tuple[Float, NDArray[np.int32], Float, Float]:
-        """All surfels in another frame: centroids (N, 3) with ``lift`` (metres) added to their height, counts,
-        variances along the new x and y (N, 2), views (N, 2)."""
+        """All surfels in another frame, with ``lift`` (metres) added to their height.
+
+        Centroids (N, 3), counts (N,), variances along the new x and y (N, 2) and views (N, 2).
+        """
         sums = self._sums[: self._used]
         centroid, variance, view = _turned(
             self._keys[: self._used], sums, self.size, np.ascontiguousarray(rotation), lift

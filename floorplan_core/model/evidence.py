@@ -30,7 +30,8 @@ class Evidence:
     free: Bits  # (ny, nx) levels that are free: rays passed and no surface dominates
     occupied: Bits  # (ny, nx) levels whose hits dominate the rays
     path: Float  # (M, 2) sensor positions, manhattan frame
-    viewpoints: bool  # False: no sensor origins; free space is inferred from floor and ceiling
+    inferred: bool  # True: neither rays nor the file told free space; it is guessed from floor and ceiling
+    viewpoints: bool  # False: no sensor origins; which way a surface faces is told by the free space
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -52,6 +52,7 @@ def open_survey(
     if options.trajectory is not None:
         check_is_file(options.trajectory, "trajectory")
     readers = registry.readers if registry is not None and registry.readers else builtin_readers()
+    given = path
     if not head and not any(reader.sniff(path, head) > 0 for reader in readers):
         path = find_cloud(path, readers)
         head = read_head(path)
@@ -64,7 +65,10 @@ def open_survey(
         raise InputError(f"Cannot read {path.name}: {error.strerror or error}.") from error
     except (ValueError, MemoryError, OverflowError) as error:
         raise InputError(f"{path.name} is damaged ({reader.name}: {str(error)[:120]}).") from error
-    return replace(opened, assumptions=(*_mislabelled(path, reader, readers), *opened.assumptions))
+    name = (
+        given.resolve().name if path != given else opened.name
+    )  # a survey's folder says more than points.ply
+    return replace(opened, name=name, assumptions=(*_mislabelled(path, reader, readers), *opened.assumptions))
 
 
 def choose_reader(path: Path, head: bytes, readers: Sequence[Reader]) -> Reader:

@@ -29,6 +29,7 @@ Float = NDArray[np.float64]
 _BARE_CORNER = 1.0  # m, widest corner opening without a lintel that is still a door
 _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
+_OFF_APERTURE = 0.01  # of the answer, a metre off the aperture that the filter is matched to: ties go to it
 _PARAPET = 0.3  # of the height below 2 m, seen all along an aperture: something stands in it
 _UNSEEN = 0.3  # most that an opening can earn through which nothing was seen to pass
 _WEIGHTS = {
@@ -102,6 +103,7 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
         fall, rise = -gradient[:-bins], gradient[bins:]
         empty = 1.0 - (inside[bins:-1] - inside[: -bins - 1]) / bins
         answer = np.minimum(fall, rise) * empty
+        answer = answer - _OFF_APERTURE * abs(bins * profile.step - config.aperture)
         better = answer > best[:-bins]
         best[:-bins][better] = answer[better]
         width[:-bins][better] = bins * profile.step

@@ -166,7 +166,7 @@ def _profile(
     low: Float = count_bits(bits & low_mask) / int(low_mask).bit_count()
     high = LEVEL * count_bits(bits & high_mask).astype(np.float64)
     through = _through(facing, offset, evidence)
-    if not evidence.viewpoints:
+    if evidence.inferred:
         # Free space is inferred from patches of floor and ceiling: spread it over the gaps.
         reach = round(_PATCHY / evidence.fine)
         through = np.lib.stride_tricks.sliding_window_view(np.pad(through, reach), 2 * reach + 1).max(axis=1)

@@ -31,7 +31,7 @@ def gather_evidence(
     surfels: SurfelMap, misses: MissMap, frame: ManhattanFrame, path: Float, config: VoxelConfig
 ) -> Evidence:
     """Turn the maps into the manhattan frame; ``path`` is (M, 3) sensor positions, local frame."""
-    viewpoints = misses.blocks > 0
+    viewpoints = bool(len(path))
     xyz, count, spread, view = surfels.turned(frame.rotation, -frame.floor_z)
     path_xy = frame.to_manhattan(path)[:, :2] if len(path) else np.zeros((0, 2))
     cell = config.size
@@ -39,7 +39,7 @@ def gather_evidence(
     fine = cell / 2
     hits = hit_columns(xyz, origin, fine, 2 * shape[0], 2 * shape[1])
     surface = _merge_cells(hits)
-    if viewpoints:
+    if misses.blocks > 0:
         least = (config.min_misses, round(1 / config.hit_ratio) + 1)
         rays, many = misses.column_bits(frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, least)
         occupied = surface & ~(many & ~_solid(surface))
@@ -61,6 +61,7 @@ def gather_evidence(
         free,
         occupied,
         path_xy,
+        misses.blocks == 0,
         viewpoints,
     )
 

@@ -131,3 +131,14 @@ def test_columns_in_a_turned_grid_see_the_same_space(degrees):
         voxels = map(tuple, np.floor(local / SIZE + 1e-12).astype(int).tolist())
         expected = np.array([v in straight for v in voxels]).reshape(120, 120)
         assert np.mean(expected != ((turned >> np.uint64(k)) & np.uint64(1)).astype(bool)) < 0.002
+
+
+def test_marked_voxels_are_free_without_rays():
+    rng = np.random.default_rng(8)
+    points = rng.uniform(-20, 20, (5000, 3))
+    misses = MissMap(SIZE)
+    misses.mark(np.vstack([points, [[np.nan, 0, 0], [1e9, 0, 0]]]), 3)
+    keys = np.unique(np.floor(points / SIZE).astype(int), axis=0)
+    held = misses._pool[: misses.blocks]
+    assert np.count_nonzero(held) == len(keys)
+    assert held.sum() == 3 * len(points)
