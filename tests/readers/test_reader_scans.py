@@ -125,7 +125,7 @@ def test_a_folder_with_one_cloud_is_that_cloud(tmp_path):
     (tmp_path / "README.txt").write_text("about this survey\n")
     write_tum(tmp_path / "trajectory.tum", path_in_room())
     survey = open_survey(tmp_path)
-    assert survey.name == "points.ply"
+    assert survey.name == tmp_path.name
     assert len(survey.trajectory) == 40
 
 
