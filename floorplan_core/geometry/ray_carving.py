@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, pack, spread
 
 Float = NDArray[np.float64]
@@ -96,22 +97,15 @@ class MissMap:
         The map is sampled at the cell centres of a grid in another frame: ``rotation`` takes local to grid
         coordinates; column [iy, ix] starts at ``origin + cell * [ix, iy]``, level k at ``z0 + k * cell``.
         """
-        two_words: tuple[NDArray[np.uint64], NDArray[np.uint64]] = _column_bits(
-            self._keys,
-            self._ids,
-            self._pool,
-            self.size,
-            np.ascontiguousarray(rotation),
-            origin,
-            cell,
-            shape[0],
-            shape[1],
-            z0,
-            levels,
-            least[0],
-            least[1],
-        )
-        return two_words
+        few, many = np.zeros(shape, dtype=np.uint64), np.zeros(shape, dtype=np.uint64)
+        r = np.ascontiguousarray(rotation)
+        tables = (self._keys, self._ids, self._pool, self.size)
+
+        def rows(start: int, stop: int) -> None:
+            _column_bits(*tables, r, origin, cell, z0, levels, least[0], least[1], few, many, start, stop)
+
+        in_halves(rows, shape[0], worth=50)
+        return few, many
 
 
 @njit(cache=True, inline="always")
@@ -205,13 +199,14 @@ def _rehash(keys, ids, new_keys, new_ids):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, levels, few, many):  # type: ignore[no-untyped-def]
-    out, strong = np.zeros((ny, nx), dtype=np.uint64), np.zeros((ny, nx), dtype=np.uint64)
+def _column_bits(  # type: ignore[no-untyped-def]
+    keys, ids, pool, size, rotation, origin, cell, z0, levels, few, many, out, strong, start, stop
+):
     inverse = 1.0 / size
     r = rotation * inverse
-    for iy in range(ny):
+    for iy in range(start, stop):
         gy = origin[1] + (iy + 0.5) * cell
-        for ix in range(nx):
+        for ix in range(out.shape[1]):
             gx = origin[0] + (ix + 0.5) * cell
             fx, fy, fz = r[0, 0] * gx + r[1, 0] * gy, r[0, 1] * gx + r[1, 1] * gy, r[0, 2] * gx + r[1, 2] * gy
             bits, more = np.uint64(0), np.uint64(0)
@@ -232,4 +227,3 @@ def _column_bits(keys, ids, pool, size, rotation, origin, cell, ny, nx, z0, leve
                     if rays >= many:
                         more |= np.uint64(1) << np.uint64(k)
             out[iy, ix], strong[iy, ix] = bits, more
-    return out, strong

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, block_slot, pack, spread
 
 Float = NDArray[np.float64]
@@ -114,11 +115,14 @@ class SurfelMap:
 
         Centroids (N, 3), counts (N,), variances along the new x and y (N, 2) and views (N, 2).
         """
-        sums = self._sums[: self._used]
-        centroid, variance, view = _turned(
-            self._keys[: self._used], sums, self.size, np.ascontiguousarray(rotation), lift
-        )
-        return centroid, sums[:, 0].copy(), variance, view
+        n, r = self._used, np.ascontiguousarray(rotation)
+        xyz, variance, view = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
+
+        def part(start: int, stop: int) -> None:
+            _turn(self._keys, self._sums, self.size, r, lift, xyz, variance, view, start, stop)
+
+        in_halves(part, n, worth=10_000)
+        return xyz, self._sums[:n, 0].copy(), variance, view
 
 
 @njit(cache=True, nogil=True)
@@ -206,10 +210,9 @@ def _in_chosen_block(keys, every):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _turned(keys, sums, size, r, lift):  # type: ignore[no-untyped-def]
-    n, low, step = len(keys), (1 << 21) - 1, size / STEPS
-    xyz, spread_, view = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
-    for i in range(n):
+def _turn(keys, sums, size, r, lift, xyz, spread_, view, start, stop):  # type: ignore[no-untyped-def]
+    low, step = (1 << 21) - 1, size / STEPS
+    for i in range(start, stop):
         c = 1.0 / sums[i, 0]
         mx, my, mz = sums[i, 1] * c, sums[i, 2] * c, sums[i, 3] * c
         x = ((keys[i] >> 42) - BIAS) * size + (mx + 0.5) * step
@@ -224,4 +227,3 @@ def _turned(keys, sums, size, r, lift):  # type: ignore[no-untyped-def]
             a, b = r[k, 0], r[k, 1]
             spread_[i, k] = (a * a * xx + 2 * a * b * xy + b * b * yy) * step * step
             view[i, k] = a * vx + b * vy
-    return xyz, spread_, view

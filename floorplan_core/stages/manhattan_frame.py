@@ -73,7 +73,9 @@ def _no_walls(area: float, voxels: int, height: float) -> str:
         return (
             f"{what}, all within {height:.2f} m of height; a 2-D scan shows walls only with its trajectory."
         )
-    return f"{what}; check the unit and the up axis (--unit, --up), or scan more of the walls."
+    return (
+        f"{what}; check the unit and the up axis (--set input.unit=... or input.up=...), or scan more walls."
+    )
 
 
 def _gravity(normals: CellNormals) -> Float:

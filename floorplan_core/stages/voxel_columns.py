@@ -77,7 +77,7 @@ def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]
     if 4 * nx * ny > _LARGEST:
         raise NoPlanError(
             f"The points spread over {nx * cell:.0f} x {ny * cell:.0f} m, too much for cells of {cell:g} m; "
-            "check the unit (--unit), crop the survey, or enlarge voxels.size."
+            "check the unit (--set input.unit=...), crop the survey, or enlarge voxels.size."
         )
     return origin, (ny, nx)
 

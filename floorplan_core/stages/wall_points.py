@@ -21,7 +21,9 @@ def thin_wall_points(evidence: Evidence, segments: Sequence[LayoutSegment]) -> W
     word = bits[iy, ix]
     keep = count_bits(word) >= 2
     iy, ix, word = iy[keep], ix[keep], word[keep]
-    xy = evidence.origin + (np.column_stack([ix, iy]) + 0.5) * evidence.fine
+    xy = np.empty((len(ix), 2), dtype=np.float32)
+    for k, cells in enumerate((ix, iy)):
+        xy[:, k] = evidence.origin[k] + (cells + 0.5) * evidence.fine
     top = (np.floor(np.log2(word.astype(np.float64))) + 1) * LEVEL
     facing = np.full(evidence.hits.shape, -1, dtype=np.int8)
     for s in segments:
@@ -32,4 +34,4 @@ def thin_wall_points(evidence: Evidence, segments: Sequence[LayoutSegment]) -> W
         u = [int((s.offset + d - evidence.origin[a]) / evidence.fine) for d in (-_NEAR, _NEAR)]
         v = [int((e - evidence.origin[1 - a]) / evidence.fine) for e in (s.start, s.end)]
         grid[max(v[0], 0) : v[1] + 1, max(u[0], 0) : u[1] + 1] = int(s.facing)
-    return WallPoints(xy.astype(np.float32), top.astype(np.float32), facing[iy, ix])
+    return WallPoints(xy, top.astype(np.float32), facing[iy, ix])
