@@ -71,6 +71,8 @@ SURVEYS = (
            truth=DATA / "sim_aws_small_house" / "gt_plan.json", figures=("plan",)),
     Survey("fr079", "Freiburg 079 (real)", DATA / "octomap_fr079_3d" / "points.ply",
            truth=DATA / "octomap_fr079_3d" / "free_voxels.npz"),
+    Survey("fr079-octomap", "Freiburg 079, OctoMap (real)", DATA / "octomap_fr079_3d" / "geb079.bt",
+           truth=DATA / "octomap_fr079_3d" / "free_voxels.npz", figures=("occupancy", "plan")),
     Survey("intel", "Intel lab (real)", *extruded("carmen_intel")),
     Survey("seattle", "Seattle (real)", *extruded("carmen_seattle")),
     Survey("aces", "ACES (real)", *extruded("carmen_aces")),
