@@ -31,7 +31,7 @@ from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
 from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
-from floorplan_core.stages.layout_planes import find_planes, pairable
+from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
@@ -129,6 +129,7 @@ class FloorPlanner:
             "planes",
             lambda: close_corners(remove_beams(planes, config.doors.max_beamless, config.doors.lintel_depth)),
         )
+        planes = stage("planes", lambda: mark_recesses(planes, config.planes))
         doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
         grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
         walls, paired = blockers(planes, doors), pairable(planes, config.planes)

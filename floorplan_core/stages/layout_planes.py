@@ -65,8 +65,13 @@ def find_planes(
 
 def pairable(planes: Sequence[LayoutPlane], config: PlanesConfig) -> list[LayoutPlane]:
     """The planes that may bound a rectangle: enough was seen of them, and they are no recess of another."""
+    return [p for p in planes if p.support >= config.min_support and not p.recess]
+
+
+def mark_recesses(planes: Sequence[LayoutPlane], config: PlanesConfig) -> tuple[LayoutPlane, ...]:
+    """The planes, told which of them are recesses in the wall of another."""
     behind = recessed(planes, config.recess)
-    return [p for p in planes if p.support >= config.min_support and p.id not in behind]
+    return tuple(replace(p, recess=p.id in behind) for p in planes)
 
 
 def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:

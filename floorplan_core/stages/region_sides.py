@@ -24,8 +24,9 @@ class WallSurfaces:
 
     def __init__(self, planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) -> None:
         self._table = {}
+        recesses = {p.id for p in planes if p.recess}  # a window's pane is not where its wall is
         for facing in Facing:
-            mine = [s for s in segments if s.facing == facing and s.plane]
+            mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in recesses]
             data = np.array([[s.offset, s.start, s.end, s.area] for s in mine]).reshape(-1, 4)
             self._table[facing] = (data, [s.plane for s in mine])
         self.thickness = typical_thickness(planes)
