@@ -91,17 +91,14 @@ class LayoutPlane:
     support: float = 0.0  # m2 observed
     residual: float = 0.0  # metres, 95 % of the supporting points lie closer than this
     speculated: bool = False  # True: no surface was seen here; it closes a room whose wall is missing
-    recess: bool = (
-        False  # True: it lies in a recess of another plane's wall (a window pane, a shut leaf, a niche)
-    )
     profile: WallProfile | None = None
-    walls: NDArray[np.float64] = field(
-        default_factory=lambda: np.zeros((0, 2))
-    )  # (K, 2) runs along the plane that
-    # are wall: seen, above a lintel, or hidden between two seen parts; these block rectangles
+    # (K, 2) metres, runs along the plane that are wall: seen, above a lintel, or hidden between two seen parts;
+    # these block rectangles
+    walls: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
     observed: NDArray[np.float64] = field(
         default_factory=lambda: np.zeros((0, 2))
-    )  # (K, 2) the runs really seen
+    )  # (K, 2) runs really seen
+    recess: bool = False  # True: it lies in a recess of another plane's wall (a pane, a shut leaf, a niche)
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,9 @@ from floorplan_core.stages.layout_planes import is_solid
 Float = NDArray[np.float64]
 
 _BARE_CORNER = 1.0  # m, widest corner opening without a lintel that is still a door
+_LINTELS = (
+    0.015  # of the wall seen below 2 m: 0.7 % at most in lifted planar scans, 2.7 % at least in 3-D ones
+)
 _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
 _OFF_APERTURE = 0.01  # of the answer, a metre off the aperture that the filter is matched to: ties go to it
@@ -57,7 +60,7 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     found: list[Door] = []
     crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
     # Where the survey shows no lintel anywhere, a wide gap at a corner is rather a passage past a wall's end.
-    widest = np.inf if any(_has_lintel(p.profile) for p in planes if p.profile) else _BARE_CORNER
+    widest = np.inf if _shows_lintels([p.profile for p in planes if p.profile]) else _BARE_CORNER
     for plane in planes:
         assert plane.profile is not None
         meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
@@ -72,9 +75,10 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
 
 
-def _has_lintel(profile: WallProfile) -> bool:
-    """True where wall was seen above 2 m over at least the width of a door, and none below."""
-    return float(((profile.high > 0) & (profile.low == 0)).sum()) * profile.step >= _CORNER_PASSAGE
+def _shows_lintels(profiles: Sequence[WallProfile]) -> bool:
+    """True where wall is seen above 2 m and none below, often enough to be no accident."""
+    lintel = sum(int(((p.high > 0) & (p.low == 0)).sum()) for p in profiles)
+    return lintel > _LINTELS * sum(int((p.low > 0).sum()) for p in profiles)
 
 
 def _has_parapet(profile: WallProfile, start: float, end: float) -> bool:
