@@ -92,12 +92,10 @@ class LayoutPlane:
     residual: float = 0.0  # metres, 95 % of the supporting points lie closer than this
     speculated: bool = False  # True: no surface was seen here; it closes a room whose wall is missing
     profile: WallProfile | None = None
-    # (K, 2) metres, runs along the plane that are wall: seen, above a lintel, or hidden between two seen parts;
+    # (K, 2) metres, runs along the plane that are wall: seen, under a lintel, or hidden between seen parts;
     # these block rectangles
     walls: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
-    observed: NDArray[np.float64] = field(
-        default_factory=lambda: np.zeros((0, 2))
-    )  # (K, 2) runs really seen
+    observed: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))  # (K, 2) runs really seen
     recess: bool = False  # True: it lies in a recess of another plane's wall (a pane, a shut leaf, a niche)
 
 
