@@ -15,8 +15,6 @@ Points = NDArray[np.float64]
 FLOOR_SHARE = 0.01  # of the voxels lie below the floor (stray rays)
 BAND = (0.9, 1.5)  # m above the floor: the slice at which plans are made, with tolerance for its height
 ABOVE_FURNITURE = (1.9, 2.5)  # m above the floor
-OUTDOORS = 0.4  # m; carved strips narrower than this are rays through doors and windows, not floor
-INDOOR_REACH = 5  # cells; a ceiling or floor this near makes a carved cell indoors
 
 
 def load_free_voxels(path: Path) -> Truth:

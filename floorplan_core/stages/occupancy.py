@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import OccupancyConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.geometry.columns import LEVEL, height_mask
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
 
@@ -160,10 +160,3 @@ def _floor_cells(evidence: Evidence) -> Mask:
 def _any_hit(evidence: Evidence, mask: np.uint64) -> Mask:
     hit: Bits = evidence.hits & mask
     return np.asarray((hit[::2, ::2] | hit[1::2, ::2] | hit[::2, 1::2] | hit[1::2, 1::2]) != 0)
-
-
-def free_share(evidence: Evidence, low: float, high: float) -> Float:
-    """(ny, nx) share of the heights between ``low`` and ``high`` (metres) that is free."""
-    mask = height_mask(low, high)
-    share: Float = count_bits(evidence.free & mask) / max(int(mask).bit_count(), 1)
-    return share

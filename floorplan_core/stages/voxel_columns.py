@@ -24,7 +24,6 @@ Float = NDArray[np.float64]
 _SAMPLE = 200_000  # surfels from which the extent is taken
 _MARGIN = 1.0  # m of empty cells around the data
 _LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
-_FLOOR_LEVELS = np.uint64(0b11)  # a column's floor is seen in the two lowest levels
 
 
 def gather_evidence(
