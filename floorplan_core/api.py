@@ -18,6 +18,7 @@ from floorplan_core.model import (
     Region,
     RegionSide,
     Trajectory,
+    loa_band,
 )
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Exporter, Reader, ReadOptions, RegionClassifier, hookimpl
@@ -86,6 +87,7 @@ __all__ = [
     "import_library",
     "is_rigid",
     "join_chunks",
+    "loa_band",
     "moved",
     "nearest_rows",
     "parse_ply_header",

@@ -15,6 +15,7 @@ STAGES = (
     "export", "total",
 )  # fmt: skip
 MICROSECONDS = 6  # decimals of a time
+MILLIMETRES, TENTHS, SHARES = 3, 4, 4  # decimals of a length, of a residual, of a share
 
 
 def run_report(
@@ -27,6 +28,7 @@ def run_report(
         "seconds": stage_seconds({**plan.seconds, **(seconds or {})}),
         "peak_memory_mb": peak_memory_mb(),
         **counts(plan),
+        "loa": loa_summary(plan),
         "warnings": list(dict.fromkeys([*plan.warnings, *warnings])),
         "config": plan.config.model_dump(mode="json"),
         "version": __version__,
@@ -44,6 +46,24 @@ def counts(plan: FloorPlan) -> dict[str, int]:
         "rectangles": len(plan.cover),
         "regions": len(plan.regions),
         "doors": len(plan.doors),
+    }
+
+
+def loa_summary(plan: FloorPlan) -> dict[str, Any]:
+    """How well the walls are known: the share of the regions' sides, by length, in each USIBD band.
+
+    ``none`` holds what was not seen and what lies off by more than 15 cm; ``mean_residual_m`` is over what
+    was seen.
+    """
+    from floorplan_core.model.loa import mean_side_residual, side_lengths_by_band
+
+    metres = side_lengths_by_band(plan.regions)
+    total = sum(metres.values())
+    residual = mean_side_residual(plan.regions)
+    return {
+        "length_m": round(total, MILLIMETRES),
+        "share": {band: round(m / total if total else 0.0, SHARES) for band, m in metres.items()},
+        "mean_residual_m": None if residual is None else round(residual, TENTHS),
     }
 
 

@@ -119,7 +119,8 @@ class _Builder:
                     ident, facing, offset, start, end, 0.1, 2.5, 2.4 * (end - start), 400, 0.008, 0.001
                 )
             )
-        return RegionSide(tuple(a), tuple(b), f"P-{facing.name[0]}{offset:.3f}", 0.92 if seen else 0.1, hole)
+        plane, share, residual = f"P-{facing.name[0]}{offset:.3f}", *((0.92, 0.009) if seen else (0.1, None))
+        return RegionSide(tuple(a), tuple(b), plane, share, hole, residual)
 
     def layout(self) -> tuple[tuple[LayoutPlane, ...], tuple[LayoutSegment, ...]]:
         planes, segments = [], []

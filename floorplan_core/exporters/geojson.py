@@ -16,7 +16,7 @@ import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.exporters.coverage import matched, rounded
-from floorplan_core.model import Door, FloorPlan, LayoutPlane, LayoutSegment, Region, RegionSide
+from floorplan_core.model import Door, FloorPlan, LayoutPlane, LayoutSegment, Region, RegionSide, loa_band
 
 Float = NDArray[np.float64]
 Json = dict[str, Any]
@@ -104,6 +104,8 @@ def _side(plan: FloorPlan, side: RegionSide) -> Json:
         "plane": side.plane,
         "observed": _metres(side.observed),
         "speculated": bool(side.speculated),
+        "residual_m": None if side.residual is None else _metres(side.residual),
+        "loa": loa_band(side.residual),
     }
 
 
@@ -132,6 +134,7 @@ def _plane(plan: FloorPlan, plane: LayoutPlane) -> Json:
         "offset_m": _metres(plane.offset),
         "support_m2": _metres(plane.support),
         "residual_m": _metres(plane.residual),
+        "loa": loa_band(plane.residual if plane.support > 0 else None),
         "segments": list(plane.segments),
         "speculated": bool(plane.speculated),
     }

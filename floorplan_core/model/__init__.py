@@ -4,6 +4,7 @@ from floorplan_core.model.cover import CandidateSet, RectangleCover
 from floorplan_core.model.floor_plan import FloorPlan, RegionSide, WallPoints
 from floorplan_core.model.grid_map import GridMap, MapRaster
 from floorplan_core.model.layout import Door, Facing, LayoutPlane, LayoutSegment, WallProfile
+from floorplan_core.model.loa import loa_band
 from floorplan_core.model.manhattan import ManhattanFrame
 from floorplan_core.model.occupancy import FREE, OCCUPIED, UNOBSERVED, OccupancyGrid
 from floorplan_core.model.reconstruction import LocalFrame, PointChunk, Reconstruction, Trajectory
@@ -32,4 +33,5 @@ __all__ = [
     "Trajectory",
     "WallPoints",
     "WallProfile",
+    "loa_band",
 ]

@@ -18,6 +18,7 @@ class RegionSide:
     plane: str  # id of the layout plane on which it lies; "" where none
     observed: float  # 0 to 1: share of its length along which wall (or a door in one) was seen
     hole: bool = False  # True on an inner boundary
+    residual: float | None = None  # metres, 95 % of the points seen along it lie closer; None where none were
 
     @property
     def length(self) -> float:

@@ -113,4 +113,5 @@ def _side(a: Float, b: Float, grid: OccupancyGrid, hole: bool) -> RegionSide:
         index = np.clip(index, 0, np.array(grid.states.shape)[::-1] - 1)
         seen |= grid.states[index[:, 1], index[:, 0]] == OCCUPIED
     start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
-    return RegionSide(start, end, "", round(float(seen.mean()), 4), hole)
+    residual = grid.cell / 2 if seen.any() else None  # a wall in a cell is anywhere in it
+    return RegionSide(start, end, "", round(float(seen.mean()), 4), hole, residual)

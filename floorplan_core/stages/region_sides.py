@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,6 +15,8 @@ from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, Regio
 Float = NDArray[np.float64]
 
 _THICKEST = 0.45  # m between two faces that are one wall
+_MOST, _TWO_SIGMA = 0.95, 1.96  # share of the points that a residual holds; in standard deviations
+_HALVINGS = 16  # of an interval under a metre: to a few hundredths of a millimetre
 _USUAL = 0.12  # m, thickness of an inner wall where no wall was seen from both sides
 
 
@@ -27,7 +30,7 @@ class WallSurfaces:
         recesses = {p.id for p in planes if p.recess}  # a window's pane is not where its wall is
         for facing in Facing:
             mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in recesses]
-            data = np.array([[s.offset, s.start, s.end, s.area] for s in mine]).reshape(-1, 4)
+            data = np.array([[s.offset, s.start, s.end, s.residual] for s in mine]).reshape(-1, 4)
             self._table[facing] = (data, [s.plane for s in mine])
         self.thickness = typical_thickness(planes)
 
@@ -39,14 +42,14 @@ class WallSurfaces:
         return Facing.NORTH if b[0] > a[0] else Facing.SOUTH
 
     def along(self, a: Float, b: Float) -> tuple[Float, list[str]]:
-        """(K, 3) offset, start, end (clipped to the side) of the surfaces seen along it, and their planes."""
+        """(K, 4) offset, start, end (clipped to the side), residual of what was seen along it; its planes."""
         data, planes = self._table[self.facing(a, b)]
         across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
         low, high = sorted((a[1 - across], b[1 - across]))
         start, end = np.maximum(data[:, 1], low), np.minimum(data[:, 2], high)
         near = (np.abs(data[:, 0] - a[across]) < self.REACH) & (end > start)
         k = np.flatnonzero(near)
-        return np.column_stack([data[k, 0], start[k], end[k]]), [planes[i] for i in k]
+        return np.column_stack([data[k, 0], start[k], end[k], data[k, 3]]), [planes[i] for i in k]
 
     def target(self, a: Float, b: Float) -> float:
         """Where a side belongs: the median of the surfaces seen along it, by length; else where it is."""
@@ -121,7 +124,7 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
     across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
     low, high = sorted((float(a[1 - across]), float(b[1 - across])))
     seen, names = walls.along(a, b)
-    spans = [(s, e) for _, s, e in seen]
+    spans = [(s, e) for _, s, e, _ in seen]
     for door in doors:
         if door.axis == across and abs(door.offset - a[across]) < door.thickness / 2 + walls.REACH:
             spans.append((door.start, door.end))
@@ -133,4 +136,24 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
             at = e
     plane = walls.plane(names, seen[:, 2] - seen[:, 1])
     start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
-    return RegionSide(start, end, plane, round(min(1.0, covered / max(high - low, 1e-9)), 4), hole)
+    share = round(min(1.0, covered / max(high - low, 1e-9)), 4)
+    return RegionSide(start, end, plane, share, hole, _residual(seen, float(a[across])))
+
+
+def _residual(seen: Float, at: float) -> float | None:
+    """Metres within which 95 % of the points seen along a side lie of it.
+
+    The points of each surface are taken as normally distributed about its own offset, with its own residual.
+    """
+    length, away = seen[:, 2] - seen[:, 1], np.abs(seen[:, 0] - at)
+    if length.sum() <= 0:
+        return None
+    scale = np.maximum(seen[:, 3] / _TWO_SIGMA, 1e-6) * math.sqrt(2.0)
+    low, high = 0.0, float((away + 2 * seen[:, 3]).max()) + 1e-3
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        inside = [math.erf(z) for z in ((middle - away) / scale).tolist()]
+        inside = [a + math.erf(z) for a, z in zip(inside, ((middle + away) / scale).tolist(), strict=True)]
+        share = 0.5 * float(np.dot(inside, length)) / float(length.sum())
+        low, high = (middle, high) if share < _MOST else (low, middle)
+    return high

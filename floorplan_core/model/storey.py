@@ -1,0 +1,47 @@
+"""A storey of a building: between which heights it lies, everywhere over the plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class HeightMap:
+    """A height for every place of the plan: that of the slab there, or of the nearest slab that was seen."""
+
+    heights: Float  # (ny, nx) metres, manhattan frame; (1, 1) where it is the same everywhere
+    origin: tuple[float, float] = (0.0, 0.0)  # metres, manhattan frame: lower left corner of cell [0, 0]
+    cell: float = 1.0  # metres on a side
+
+    @staticmethod
+    def constant(height: float) -> HeightMap:
+        """The same height everywhere."""
+        return HeightMap(np.array([[height]]))
+
+    def at(self, xy: Float) -> Float:
+        """(N,) heights at (N, 2) places; beyond the map those of its border."""
+        ny, nx = self.heights.shape
+        index = np.floor((np.asarray(xy) - np.array(self.origin)) / self.cell).astype(np.int64)
+        return np.asarray(self.heights[np.clip(index[:, 1], 0, ny - 1), np.clip(index[:, 0], 0, nx - 1)])
+
+
+@dataclass(frozen=True)
+class Storey:
+    """One storey; all heights are z of the manhattan frame in metres."""
+
+    number: int  # 0 is the lowest of the survey
+    floor_z: float
+    ceiling_z: float | None  # None where no ceiling was seen
+    bottom: HeightMap  # what lies below belongs to the storey below
+    top: HeightMap  # what lies above belongs to the storey above
+    area: float  # m2 of horizontal surface seen at the height of the floor
+
+    def holds(self, points: Float) -> NDArray[np.bool_]:
+        """(N,) which of (N, 3) points, manhattan frame, lie in this storey."""
+        xy, z = points[:, :2], points[:, 2]
+        return np.asarray((z >= self.bottom.at(xy)) & (z <= self.top.at(xy)))

@@ -1,0 +1,33 @@
+"""What a side of a region tells about itself: the residual of the surfaces seen along it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from floorplan_core.stages.region_sides import _residual
+
+
+def surface(offset: float, length: float, residual: float) -> list[float]:
+    return [offset, 0.0, length, residual]
+
+
+def test_one_surface_keeps_its_own_residual() -> None:
+    assert _residual(np.array([surface(2.0, 3.0, 0.012)]), 2.0) == pytest.approx(0.012, abs=2e-4)
+
+
+def test_a_side_off_its_surface_is_worse() -> None:
+    residual = _residual(np.array([surface(2.0, 3.0, 0.012)]), 2.03)
+    assert residual == pytest.approx(0.03 + 1.645 * 0.012 / 1.96, abs=1e-3)  # one tail counts, far away
+
+
+def test_sampled_points_agree() -> None:
+    rng = np.random.default_rng(7)
+    seen = np.array([surface(0.0, 4.0, 0.02), surface(0.015, 2.0, 0.01), surface(0.1, 0.5, 0.03)])
+    n = (40_000 * seen[:, 2]).astype(int)
+    points = np.concatenate([rng.normal(o, r / 1.96, k) for (o, _, _, r), k in zip(seen, n, strict=True)])
+    assert _residual(seen, 0.005) == pytest.approx(np.percentile(np.abs(points - 0.005), 95), abs=5e-4)
+
+
+def test_nothing_seen_has_no_residual() -> None:
+    assert _residual(np.zeros((0, 4)), 1.0) is None
