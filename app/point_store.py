@@ -1,0 +1,89 @@
+"""The points that the panes show: a bounded, shuffled sample of the survey, so that any prefix is a fair picture.
+
+Filled by the job's thread while it reads; the main thread reads whole snapshots. No Qt.
+"""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.model import PointChunk
+
+MOST_POINTS = 10_000_000  # 120 MB of coordinates: what the 3D pane still orbits fluently
+
+
+@dataclass(frozen=True)
+class Points:
+    """A snapshot; all arrays share their first axis."""
+
+    xyz: NDArray[np.float32]  # (N, 3) metres, local frame
+    rgb: NDArray[np.uint8] | None = None  # (N, 3)
+    intensity: NDArray[np.float32] | None = None  # (N,) 0 to 1
+
+
+class PointStore:
+    """Keeps every k-th point, with k doubled whenever the store is full."""
+
+    def __init__(self, most: int = MOST_POINTS) -> None:
+        self._most = most
+        self._lock = threading.Lock()
+        self._chunks: list[Points] = []
+        self._kept = 0
+        self._every = 1
+        self._skip = 0
+
+    def __len__(self) -> int:
+        return self._kept
+
+    def add(self, chunk: PointChunk) -> None:
+        """Take a share of the chunk's points."""
+        rows = slice(self._skip, None, self._every)
+        count = len(chunk.points)
+        self._skip = (self._skip - count) % self._every
+        colour, intensity = getattr(chunk, "rgb", None), getattr(chunk, "intensity", None)
+        part = Points(
+            np.asarray(chunk.points[rows], dtype=np.float32),
+            None if colour is None else np.asarray(colour[rows]),
+            None if intensity is None else np.asarray(intensity[rows], dtype=np.float32),
+        )
+        with self._lock:
+            self._chunks.append(part)
+            self._kept += len(part.xyz)
+            while self._kept > self._most:
+                self._thin()
+
+    def snapshot(self) -> Points:
+        """All points kept so far, shuffled by a fixed rule (the same survey gives the same order)."""
+        with self._lock:
+            chunks = list(self._chunks)
+        if not chunks:
+            return Points(np.zeros((0, 3), dtype=np.float32))
+        xyz = np.concatenate([c.xyz for c in chunks])
+        order = np.random.default_rng(0).permutation(len(xyz))
+        return Points(
+            xyz[order],
+            _joined([c.rgb for c in chunks], order),
+            _joined([c.intensity for c in chunks], order),
+        )
+
+    def _thin(self) -> None:
+        self._every *= 2
+        self._chunks = [
+            Points(
+                c.xyz[::2].copy(),
+                None if c.rgb is None else c.rgb[::2].copy(),
+                None if c.intensity is None else c.intensity[::2].copy(),
+            )
+            for c in self._chunks
+        ]
+        self._kept = sum(len(c.xyz) for c in self._chunks)
+
+
+def _joined(parts: list[NDArray | None], order: NDArray[np.int64]) -> NDArray | None:
+    """The parts end to end in ``order``; None where any of them is missing."""
+    present = [p for p in parts if p is not None]
+    return np.concatenate(present)[order] if len(present) == len(parts) else None

@@ -1,0 +1,1 @@
+"""Viewports of the workbench."""

@@ -1,0 +1,257 @@
+"""The application without a window: document, plan, selection, look, jobs and actions, tied together. No Qt.
+
+The window shows it, a script drives it, tests look at it. Everything here runs in the main thread; work runs
+in :mod:`floorcast_app.jobs`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Protocol
+
+from floorcast_app.actions import all_actions
+from floorcast_app.actions.registry import ActionRegistry
+from floorcast_app.document import Document
+from floorcast_app.events import Event
+from floorcast_app.jobs import Jobs, Post
+from floorcast_app.point_store import PointStore
+from floorcast_app.selection import Item, Selection
+from floorcast_app.state import DocumentState, SurveyRef
+from floorcast_app.view_state import ViewState
+from floorplan_core.errors import FloorPlanError, UsageError
+from floorplan_core.model import FloorPlan
+from floorplan_core.model.corrections import Correction
+from floorplan_core.observer import Observer
+from floorplan_core.session import PlanningSession
+
+
+class Interface(Protocol):
+    """What actions may ask of a person. Scripts give arguments instead; their interface refuses."""
+
+    def ask_open(self, title: str, filters: str) -> Path | None: ...
+    def ask_save(self, title: str, filters: str, suggested: str) -> Path | None: ...
+    def ask_text(self, title: str, label: str, text: str) -> str | None: ...
+    def ask_yes(self, text: str, detail: str) -> bool: ...
+    def confirm_axes(self, assumptions: tuple[str, ...], unit: str, up: str) -> tuple[str, str] | None: ...
+    def tell(self, text: str, kind: str = "info") -> None: ...  # kind: "info", "warning" or "error"
+    def show(self, what: str, **arguments: Any) -> Any: ...  # a dialog or pane by name
+
+
+class NoInterface:
+    """Nobody to ask: an action that would ask needs its arguments."""
+
+    def __init__(self) -> None:
+        self.told: list[tuple[str, str]] = []  # (kind, text)
+
+    def ask_open(self, title: str, filters: str) -> Path | None:
+        raise UsageError(f"{title}: give the path as an argument; there is nobody to ask.")
+
+    def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
+        raise UsageError(f"{title}: give the path as an argument; there is nobody to ask.")
+
+    def ask_text(self, title: str, label: str, text: str) -> str | None:
+        raise UsageError(f"{title}: give it as an argument; there is nobody to ask.")
+
+    def ask_yes(self, text: str, detail: str) -> bool:
+        return True
+
+    def confirm_axes(self, assumptions: tuple[str, ...], unit: str, up: str) -> tuple[str, str] | None:
+        return unit, up
+
+    def tell(self, text: str, kind: str = "info") -> None:
+        self.told.append((kind, text))
+
+    def show(self, what: str, **arguments: Any) -> Any:
+        raise UsageError(f"{what} needs a window.")
+
+
+class Workbench:
+    """One document and everything that is derived from it."""
+
+    def __init__(self, post: Post) -> None:
+        self.document = Document()
+        self.selection = Selection()
+        self.view = ViewState()
+        self.jobs = Jobs(post)
+        self.actions: ActionRegistry = all_actions()
+        self.ui: Interface = NoInterface()
+        self.project: Path | None = None  # where the document is saved; None: nowhere yet
+        self.plan: FloorPlan | None = None
+        self.session: PlanningSession | None = None
+        self.points = PointStore()
+        self.warnings: tuple[str, ...] = ()
+        self.assumptions: tuple[str, ...] = ()
+        self.tool = "select"  # "select", "measure", "plane", "door", "wall", "split", "merge", "move"
+        self.plan_changed = Event()  # (FloorPlan | None)
+        self.partial = Event()  # (stage, result) as stages finish
+        self.points_changed = Event()  # () more points to show, or none
+        self.tool_changed = Event()  # (tool)
+        self.survey_changed = Event()  # () another survey, or none
+        self.document.changed.connect(self._document_changed)
+        self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
+        self.jobs.ended.connect(self._job_ended)
+        self.jobs.warned.connect(self._warned)
+
+    # ---- running actions --------------------------------------------------------------------------------
+
+    def run(self, id: str, **arguments: Any) -> Any:
+        """Run an action by id; :class:`UsageError` where it is not possible now."""
+        action = self.actions[id]
+        if not action.enabled(self):
+            raise UsageError(f"{action.text.rstrip('…')} ({id}) is not possible now.")
+        return action.run(self, **arguments)
+
+    def try_run(self, id: str, **arguments: Any) -> Any:
+        """The same from a menu or a key: what goes wrong is told, not raised."""
+        try:
+            return self.run(id, **arguments)
+        except FloorPlanError as error:
+            self.ui.tell(str(error), "error")
+            return None
+
+    def set_tool(self, tool: str) -> None:
+        """What a click in a pane does from now on."""
+        if tool != self.tool:
+            self.tool = tool
+            self.tool_changed.emit(tool)
+
+    # ---- the document -----------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> DocumentState:
+        """The document's present state."""
+        return self.document.state
+
+    def change(self, text: str, **values: Any) -> None:
+        """One undoable step: fields of the :class:`DocumentState` with their new values."""
+        self.document.apply(text, replace(self.state, **values))
+
+    def correct(self, text: str, *corrections: Correction) -> None:
+        """One undoable step that adds corrections; the plan follows."""
+        self.change(text, corrections=(*self.state.corrections, *corrections))
+
+    # ---- survey and plan --------------------------------------------------------------------------------
+
+    def open_survey(
+        self, path: Path, trajectory: Path | None = None, unit: str = "auto", up: str = "auto"
+    ) -> None:
+        """Begin a new document with a survey; it is read and planned in a job."""
+        self._close_survey()
+        state = DocumentState(SurveyRef(Path(path), trajectory))
+        config = state.config.model_copy(
+            update={"input": state.config.input.model_copy(update={"unit": unit, "up": up})}
+        )
+        self.project = None
+        self.document.reset(replace(state, config=config), f"Open {Path(path).name}", saved=False)
+
+    def read_and_plan(self) -> None:
+        """Start the job that reads the survey and plans it from nothing."""
+        ref, state = self.state.survey, self.state
+        if ref is None:
+            return
+        self.points = PointStore()
+        store = self.points
+
+        def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
+            session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
+            self._post_session(session)
+            session.read(observer, lambda chunk: store.add(chunk))
+            return session, session.plan(state.config, state.corrections, observer)
+
+        self.jobs.start(f"Reading {ref.path.name}", work, self._planned)
+
+    def replan(self) -> None:
+        """Start the job that brings the plan up to date with settings and corrections."""
+        session, state = self.session, self.state
+        if session is None or not session.ready or session.must_read_again(state.config):
+            self.read_and_plan()
+            return
+
+        def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
+            return session, session.plan(state.config, state.corrections, observer)
+
+        self.jobs.start("Planning", work, self._planned)
+
+    def cancel(self) -> None:
+        """Stop what runs; the last plan stays."""
+        self.jobs.cancel()
+
+    def exists(self, item: Item) -> bool:
+        """True where the plan has ``item``."""
+        return self.find(item) is not None
+
+    def find(self, item: Item | None) -> Any:
+        """The region, door, plane, segment or check that ``item`` names; None where there is none."""
+        if item is None:
+            return None
+        if item.kind == "check":
+            return next((c for c in self.state.checks if c.id == item.id), None)
+        if self.plan is None:
+            return None
+        things: dict[str, Any] = {
+            "region": self.plan.regions,
+            "door": self.plan.doors,
+            "plane": self.plan.planes,
+            "segment": self.plan.segments,
+        }
+        return next((t for t in things.get(item.kind, ()) if t.id == item.id), None)
+
+    def to_local(self, xy: tuple[float, float]) -> tuple[float, float]:
+        """Plan coordinates (manhattan frame) to the local frame that corrections and checks are kept in."""
+        assert self.plan is not None
+        x, y, _ = self.plan.frame.from_manhattan([xy])[0]
+        return float(x), float(y)
+
+    def to_plan(self, xy: tuple[float, float]) -> tuple[float, float]:
+        """Local coordinates to the manhattan frame of the present plan."""
+        assert self.plan is not None
+        import numpy as np
+
+        z = self.plan.frame.from_manhattan(np.zeros((1, 2)))[0, 2]
+        x, y, _ = self.plan.frame.to_manhattan(np.array([[*xy, z]]))[0]
+        return float(x), float(y)
+
+    # ---- what follows from what -------------------------------------------------------------------------
+
+    def _document_changed(self, before: DocumentState, after: DocumentState) -> None:
+        if after.survey != before.survey:
+            self._close_survey()
+            self.survey_changed.emit()
+            self.read_and_plan()
+        elif after.config != before.config or after.corrections != before.corrections:
+            self.replan()
+        self.selection.keep_only(self.exists)
+
+    def _planned(self, result: tuple[PlanningSession, FloorPlan]) -> None:
+        self.session, self.plan = result
+        self.warnings = self.plan.warnings
+        self.points_changed.emit()
+        self.plan_changed.emit(self.plan)
+        self.selection.keep_only(self.exists)
+
+    def _post_session(self, session: PlanningSession) -> None:
+        self.assumptions = session.reconstruction.assumptions
+
+    def _job_ended(self, error: Exception | None) -> None:
+        if error is not None:
+            self.points_changed.emit()
+            self.ui.tell(str(error), "info" if getattr(error, "exit_status", 4) == 130 else "error")
+
+    def _warned(self, text: str) -> None:
+        if text not in self.warnings:
+            self.warnings = (*self.warnings, text)
+
+    def _close_survey(self) -> None:
+        self.jobs.cancel()
+        self.session, self.plan, self.warnings = None, None, ()
+        self.points = PointStore()
+        self.selection.select(None)
+        self.points_changed.emit()
+        self.plan_changed.emit(None)
+
+
+def immediately(function: Callable[[], None]) -> None:
+    """A ``post`` for tests without an event loop."""
+    function()
