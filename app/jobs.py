@@ -1,4 +1,4 @@
-"""Long work beside the window: one job at a time in a thread, progress and results back in the main one. No Qt."""
+"""Long work beside the window: one job at a time in a thread; results come back in the main one. No Qt."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The points that the panes show: a bounded, shuffled sample of the survey, so that any prefix is a fair picture.
+"""The points that the panes show: a bounded, shuffled sample of the survey; any prefix is a fair picture.
 
 Filled by the job's thread while it reads; the main thread reads whole snapshots. No Qt.
 """

@@ -7,18 +7,21 @@ in :mod:`floorcast_app.jobs`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
+from inspect import signature
 from pathlib import Path
 from typing import Any, Protocol
 
 from floorcast_app.actions import all_actions
-from floorcast_app.actions.registry import ActionRegistry
+from floorcast_app.actions.registry import Action, ActionRegistry
 from floorcast_app.document import Document
 from floorcast_app.events import Event
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
+from floorcast_app.run_replay import Snapshot, snapshots
+from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
-from floorcast_app.state import DocumentState, SurveyRef
+from floorcast_app.state import Check, DocumentState, SurveyRef
 from floorcast_app.view_state import ViewState
 from floorplan_core.errors import FloorPlanError, UsageError
 from floorplan_core.model import FloorPlan
@@ -71,6 +74,8 @@ class Workbench:
     """One document and everything that is derived from it."""
 
     def __init__(self, post: Post) -> None:
+        self._post = post
+        self._whole: FloorPlan | None = None  # the plan of the whole survey, while a moment of a run is shown
         self.document = Document()
         self.selection = Selection()
         self.view = ViewState()
@@ -89,6 +94,11 @@ class Workbench:
         self.points_changed = Event()  # () more points to show, or none
         self.tool_changed = Event()  # (tool)
         self.survey_changed = Event()  # () another survey, or none
+        self.pointer_moved = Event()  # (x, y) metres, manhattan frame; (None, None) outside the panes
+        self.recent_changed = Event()  # (Path) it was opened or saved
+        self.log: list[dict[str, Any]] = []  # the actions that were run, for a script that does it again
+        self.timeline: list[Snapshot] = []  # of a replayed run
+        self.timeline_changed = Event()  # ()
         self.document.changed.connect(self._document_changed)
         self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
         self.jobs.ended.connect(self._job_ended)
@@ -101,6 +111,8 @@ class Workbench:
         action = self.actions[id]
         if not action.enabled(self):
             raise UsageError(f"{action.text.rstrip('…')} ({id}) is not possible now.")
+        _check_arguments(action, arguments)
+        self.log.append({"action": id, **{k: _plain(v) for k, v in arguments.items()}})
         return action.run(self, **arguments)
 
     def try_run(self, id: str, **arguments: Any) -> Any:
@@ -178,6 +190,96 @@ class Workbench:
         """Stop what runs; the last plan stays."""
         self.jobs.cancel()
 
+    def replay(self, every: float) -> None:
+        """Start the job that plans the run again as the sensor moved, every ``every`` seconds of it."""
+        session, state = self.session, self.state
+        if session is None:
+            return
+        self.timeline = []
+        self.timeline_changed.emit()
+
+        def work(observer: Observer) -> None:
+            for snapshot in snapshots(session.reconstruction, state.config, every, observer):
+                self._post(lambda s=snapshot: self._add_snapshot(session, s))
+
+        self.jobs.start("Replaying the run", work, lambda _: None)
+
+    def show_snapshot(self, index: int | None) -> None:
+        """Show the plan of one moment of the run; None: the plan of the whole survey."""
+        if index is None:
+            self.plan = self._whole
+        elif self.timeline[index].plan is not None:
+            self.plan = self.timeline[index].plan
+        self.plan_changed.emit(self.plan)
+        self.selection.keep_only(self.exists)
+
+    # ---- projects ---------------------------------------------------------------------------------------
+
+    @property
+    def has_edits(self) -> bool:
+        """True where closing would lose what a person did."""
+        state = self.state
+        return self.document.dirty and bool(
+            state.corrections or state.checks or self.project or len(self.document.history) > 1
+        )
+
+    def open_project(self, path: Path) -> None:
+        """Open a saved project; its survey is read again. An input that moved is asked for."""
+        from floorplan_core import project_file
+
+        loaded = project_file.load(path)
+        self._close_survey()
+        self.project = path
+        state = DocumentState(
+            survey=None if loaded.survey is None else SurveyRef(*loaded.survey),
+            config=loaded.config,
+            corrections=loaded.corrections,
+            checks=tuple(Check(**c) for c in loaded.checks),
+        )
+        self.view.put(look_from_dict(loaded.view))
+        self.document.reset(state, f"Open {path.name}")
+        if state.survey is not None and not state.survey.path.exists():
+            self.ui.tell(f"{state.survey.path.name} is not where it was; say where it lies now.", "warning")
+            self.run("file.relocate")
+
+    def save_project(self, path: Path) -> None:
+        """Save the document; whole or not at all."""
+        from floorplan_core import project_file
+
+        project_file.save(path, self.saved_form())
+        self.project = path
+        self.document.mark_saved()
+        self.ui.tell(f"Saved {path.name}.")
+
+    def saved_form(self) -> Any:
+        """The document as a :class:`floorplan_core.project_file.Project`."""
+        from floorplan_core.project_file import Project
+
+        state = self.state
+        return Project(
+            survey=None if state.survey is None else astuple_shallow(state.survey),
+            config=state.config,
+            corrections=state.corrections,
+            checks=tuple(asdict(c) for c in state.checks),
+            view=look_to_dict(self.view.look),
+        )
+
+    def relocate(self, path: Path) -> None:
+        """The survey of this document lies at ``path`` now."""
+        survey = self.state.survey
+        assert survey is not None
+        self.change(f"Find {path.name}", survey=replace(survey, path=path))
+
+    def close_survey(self) -> None:
+        """An empty document."""
+        self._close_survey()
+        self.project = None
+        self.document.reset(DocumentState(), "New")
+
+    def remember(self, path: Path) -> None:
+        """Put ``path`` first among the recent files."""
+        self.recent_changed.emit(path)
+
     def exists(self, item: Item) -> bool:
         """True where the plan has ``item``."""
         return self.find(item) is not None
@@ -226,6 +328,7 @@ class Workbench:
 
     def _planned(self, result: tuple[PlanningSession, FloorPlan]) -> None:
         self.session, self.plan = result
+        self._whole = self.plan
         self.warnings = self.plan.warnings
         self.points_changed.emit()
         self.plan_changed.emit(self.plan)
@@ -243,13 +346,42 @@ class Workbench:
         if text not in self.warnings:
             self.warnings = (*self.warnings, text)
 
+    def _add_snapshot(self, session: PlanningSession, snapshot: Snapshot) -> None:
+        if session is self.session:
+            self.timeline.append(snapshot)
+            self.timeline_changed.emit()
+
     def _close_survey(self) -> None:
         self.jobs.cancel()
         self.session, self.plan, self.warnings = None, None, ()
+        self._whole, self.timeline = None, []
+        self.timeline_changed.emit()
         self.points = PointStore()
         self.selection.select(None)
         self.points_changed.emit()
         self.plan_changed.emit(None)
+
+
+def astuple_shallow(survey: SurveyRef) -> tuple[Path, Path | None, str]:
+    """Path, trajectory and digest."""
+    return survey.path, survey.trajectory, survey.digest
+
+
+def _check_arguments(action: Action, arguments: dict[str, Any]) -> None:
+    """Say in one sentence which argument an action does not take, or needs."""
+    try:
+        signature(action.run).bind(None, **arguments)
+    except TypeError as error:
+        raise UsageError(f"{action.id}: {error}.") from error
+
+
+def _plain(value: Any) -> Any:
+    """``value`` as JSON has it."""
+    if isinstance(value, Path):
+        return str(value)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return [_plain(v) for v in value]
+    return value if isinstance(value, (str, int, float, bool, dict, type(None))) else str(value)
 
 
 def immediately(function: Callable[[], None]) -> None:

@@ -1,7 +1,112 @@
-"""The plan menu."""
+"""The Plan menu: settings, planning again, replaying a run."""
 
 from __future__ import annotations
 
-from floorcast_app.actions.registry import Action
+from typing import TYPE_CHECKING, Any
 
-ACTIONS: tuple[Action, ...] = ()
+from floorcast_app.actions.registry import Action, with_plan
+from floorplan_core.errors import UsageError
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
+    from floorplan_core.config import Config
+
+
+def set_setting(workbench: Workbench, name: str, value: Any) -> None:
+    """Change one setting, ``stage.field``; what depends on it is planned again."""
+    config = with_setting(workbench.state.config, name, value)
+    workbench.change(f"Set {name} to {value}", config=config)
+
+
+def with_setting(config: Config, name: str, value: Any) -> Config:
+    """``config`` with one other value; :class:`UsageError` where it is not known or out of bounds."""
+    return with_settings(config, {name: value})
+
+
+def with_settings(config: Config, values: dict[str, Any]) -> Config:
+    """``config`` with several other values, checked together."""
+    data = config.model_dump()
+    for name, value in values.items():
+        stage, _, field = name.partition(".")
+        if stage not in data or field not in data[stage]:
+            raise UsageError(f"There is no setting {name!r}; 'floorcast settings' lists them.")
+        data[stage][field] = value
+    return type(config).from_dict(data)
+
+
+def apply_preset(workbench: Workbench, settings: dict[str, Any], name: str = "preset") -> None:
+    """Change several settings in one step."""
+    workbench.change(f"Use {name}", config=with_settings(workbench.state.config, settings))
+
+
+def reset_settings(workbench: Workbench) -> None:
+    """All settings as they come, except how the file is read."""
+    fresh = type(workbench.state.config)()
+    kept = fresh.model_copy(update={"input": workbench.state.config.input})
+    workbench.change("Reset settings", config=kept)
+
+
+def plan_again(workbench: Workbench) -> None:
+    """Read and plan from nothing."""
+    workbench.read_and_plan()
+
+
+def cancel(workbench: Workbench) -> None:
+    """Stop what runs."""
+    workbench.cancel()
+
+
+def replay(workbench: Workbench, every: float = 20.0) -> None:
+    """Plan the run again as the robot moved, a plan every ``every`` seconds of run time."""
+    workbench.replay(every)
+
+
+def _replayable(workbench: Workbench) -> bool:
+    session = workbench.session
+    return session is not None and session.reconstruction.trajectory is not None
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "plan.again",
+        "Plan again",
+        plan_again,
+        "Read the survey once more and plan it from nothing.",
+        "F5",
+        "refresh-cw",
+        lambda w: w.state.survey is not None,
+    ),
+    Action(
+        "plan.cancel",
+        "Cancel",
+        cancel,
+        "Stop what runs; the last plan stays.",
+        "",
+        "circle-x",
+        lambda w: w.jobs.running,
+    ),
+    Action(
+        "plan.set",
+        "Change a setting…",
+        set_setting,
+        "Change one number of the method; only what depends on it is planned again.",
+    ),
+    Action("plan.preset", "Use a preset…", apply_preset, "Change several settings in one step."),
+    Action(
+        "plan.reset",
+        "Reset settings",
+        reset_settings,
+        "All settings as they come.",
+        "",
+        "rotate-ccw",
+    ),
+    Action(
+        "plan.replay",
+        "Replay the run",
+        replay,
+        "See the plan grow as the sensor moved: one plan every 20 s of run time.",
+        "",
+        "play",
+        lambda w: with_plan(w) and _replayable(w),
+    ),
+)

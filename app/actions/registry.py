@@ -24,7 +24,7 @@ def with_plan(workbench: Workbench) -> bool:
 
 @dataclass(frozen=True)
 class Action:
-    """One command. ``run(workbench, **arguments)``; arguments that are left out are asked for or have defaults."""
+    """One command. ``run(workbench, **arguments)``; arguments left out are asked for or have defaults."""
 
     id: str  # "file.open": the part before the dot is its menu
     text: str  # "Open…", sentence case

@@ -1,0 +1,81 @@
+"""The registry's actions as QActions: one each, shared by menus, toolbar and keys, kept up to date."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtGui import QAction, QKeySequence
+
+from floorcast_app.actions.registry import Action
+from floorcast_app.icons import icon
+from floorcast_app.translation import tr_action
+from floorcast_app.workbench import Workbench
+
+
+class QtActions(QObject):
+    """QActions by id."""
+
+    def __init__(self, workbench: Workbench, parent: QObject) -> None:
+        super().__init__(parent)
+        self._workbench = workbench
+        self._by_id = {action.id: self._make(action) for action in workbench.actions}
+        self._soon = QTimer(self, singleShot=True, interval=0)  # many events, one look at all actions
+        self._soon.timeout.connect(self.refresh)
+        for event in (
+            workbench.plan_changed,
+            workbench.survey_changed,
+            workbench.selection.changed,
+            workbench.document.saved_changed,
+            workbench.tool_changed,
+            workbench.jobs.started,
+            workbench.jobs.ended,
+            workbench.view.changed,
+        ):
+            event.connect(lambda *_: self._soon.start())
+        self.refresh()
+
+    def __getitem__(self, id: str) -> QAction:
+        return self._by_id[id]
+
+    def refresh(self) -> None:
+        """Look anew at what is enabled and checked, and in which words."""
+        for id, qt in self._by_id.items():
+            action = self._workbench.actions[id]
+            qt.setEnabled(action.enabled(self._workbench))
+            if action.checked is not None:
+                qt.setChecked(action.checked(self._workbench))
+        for id, text in (
+            ("edit.undo", self._workbench.document.undo_text),
+            ("edit.redo", self._workbench.document.redo_text),
+        ):
+            if id in self._by_id:
+                plain, _ = tr_action(self._workbench.actions[id])
+                self._by_id[id].setText(f"{plain}: {text}" if text else plain)
+
+    def retint(self) -> None:
+        """Icons in the colours of the present theme."""
+        for id, qt in self._by_id.items():
+            if name := self._workbench.actions[id].icon:
+                qt.setIcon(icon(name))
+
+    def _make(self, action: Action) -> QAction:
+        text, tip = tr_action(action)
+        qt = QAction(text, self)
+        if action.shortcut:
+            qt.setShortcuts([QKeySequence(s.strip()) for s in action.shortcut.split(" | ")])
+        if action.icon:
+            qt.setIcon(icon(action.icon))
+        keys = f" ({qt.shortcut().toString()})" if action.shortcut else ""
+        qt.setToolTip(f"{text.rstrip('…')}{keys}\n{tip}" if tip else text)
+        qt.setStatusTip(tip)
+        qt.setCheckable(action.checked is not None)
+        qt.triggered.connect(self._runner(action.id))
+        return qt
+
+    def _runner(self, id: str) -> Callable[[], None]:
+        def run() -> None:
+            self._workbench.try_run(id)
+            self._soon.start()
+
+        return run
