@@ -52,6 +52,18 @@ class FrameConfig(Section):
     )
 
 
+class StoreysConfig(Section):
+    """Storeys of one survey, from its floors and ceilings."""
+
+    min_height: float = setting(2.0, "m", "From a floor to the ceiling above it at least.", ge=1, le=20)
+    max_slab: float = setting(
+        1.2, "m", "From a ceiling to the floor of the storey above it at most.", ge=0, le=5
+    )
+    min_share: float = setting(
+        0.3, "", "Of the largest floor or ceiling: a smaller one parts no storeys (a gallery).", ge=0, le=1
+    )
+
+
 class VoxelConfig(Section):
     """Voxel map and surfels."""
 
@@ -269,6 +281,7 @@ class Config(Section):
 
     input: InputConfig = InputConfig()
     frame: FrameConfig = FrameConfig()
+    storeys: StoreysConfig = StoreysConfig()
     voxels: VoxelConfig = VoxelConfig()
     segments: SegmentsConfig = SegmentsConfig()
     planes: PlanesConfig = PlanesConfig()

@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, opened_image, read_scan
 
+from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, opened_image, read_scan
 from floorplan_core.api import (
     EmptyInput,
     Observer,
@@ -84,6 +84,7 @@ def e57_source(path: Path, trajectory_given: bool = False) -> PointSource:
         _trajectory(scans) if sensors and not trajectory_given else None,
         (_note(path.name, scans, sensors),),
         unit="m",
+        scans=len(scans),
     )
 
 

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from floorcast_plugins import _ros_messages as ros
 from floorcast_plugins._ros_bag import is_recording, opened
 from floorcast_plugins._ros_transforms import TOLERANCE, WORLD_FRAMES, FrameTree, interpolate
-from numpy.typing import NDArray
-
 from floorplan_core.api import (
     EmptyInput,
     InputError,
@@ -55,6 +55,7 @@ class Run:
     poses: Trajectory | None  # (S,) T_world_sensor; None: points are in the world, viewpoints unknown
     in_world: bool  # points are in the world's frame already
     notes: tuple[str, ...]
+    topics: tuple[str, ...] = ()  # of the whole recording
     types: Any = None  # rosbags' compiled definitions of the messages
 
 
@@ -90,6 +91,8 @@ class RosbagReader:
             run.poses,
             run.notes,
             unit="m",
+            scans=scans,
+            topics=run.topics,
         )
         return assemble(source, replace(options, trajectory=None), observer)
 
@@ -113,13 +116,13 @@ def survey(path: Path, given: Trajectory | None, observer: Observer) -> Run:
             else:
                 message = reader.deserialize(raw, connection.msgtype)
                 _take(message, connection, tree, tracks)
-        listed, types = _listed(reader), reader.typestore
+        listed, types, topics = _listed(reader), reader.typestore, _topics(reader)
     if not recorded:
         raise EmptyInput(f"The topic {topic} of {path.name} holds no messages.")
     frame = max(sorted(set(frames)), key=frames.count)
     placed = _place(path.name, frame, np.array(seconds), tree, tracks, given, listed)
     run = _run(path.name, topic, msgtype, np.array(recorded), np.array(seconds), placed, observer)
-    return replace(run, types=types)
+    return replace(run, types=types, topics=topics)
 
 
 def choose_topic(name: str, reader: Any) -> tuple[str, str]:
@@ -138,6 +141,15 @@ def _listed(reader: Any) -> str:
     topics = sorted({f"{c.topic} ({c.msgtype.split('/')[-1]})" for c in reader.connections})
     more = f" and {len(topics) - LISTED} more" if len(topics) > LISTED else ""
     return (", ".join(topics[:LISTED]) + more) or "none"
+
+
+def _topics(reader: Any) -> tuple[str, ...]:
+    """Each topic with the number and type of its messages, for people."""
+    counts: dict[tuple[str, str], int] = {}
+    for c in reader.connections:
+        key = (c.topic, c.msgtype.split("/")[-1])
+        counts[key] = counts.get(key, 0) + int(c.msgcount)
+    return tuple(f"{topic}: {count:,} {kind}" for (topic, kind), count in sorted(counts.items()))
 
 
 def _take(message: Any, connection: Any, tree: FrameTree, tracks: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from floorplan_core.cli import evaluate, export, gui, plan, plugins, settings, simulate, watch
+from floorplan_core.cli import evaluate, export, gui, info, plan, plugins, settings, simulate, watch
 
 app = typer.Typer(
     name="floorcast",
@@ -39,6 +39,7 @@ def floorcast(
 
 app.command()(plan.plan)
 app.command()(watch.watch)
+app.command()(info.info)
 app.command()(evaluate.evaluate)
 app.command()(export.export)
 app.command()(simulate.simulate)

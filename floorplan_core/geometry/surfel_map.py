@@ -89,6 +89,16 @@ class SurfelMap:
             if start < len(points):
                 self._grow()
 
+    def select(self, rows: NDArray[np.int64]) -> SurfelMap:
+        """A map of the surfels in ``rows`` (rising), each with all of its points."""
+        part = SurfelMap(self.size)
+        part.reserve(len(rows))
+        part._used = len(rows)
+        part._keys[: len(rows)], part._sums[: len(rows)] = self._keys[rows], self._sums[rows]
+        part.points = int(part._sums[: len(rows), 0].sum())
+        _fill(part._keys, part._used, part._table, part._row)
+        return part
+
     def _grow(self, factor: int = 2) -> None:
         capacity = factor * len(self._keys)
         keys, sums = np.zeros(capacity, dtype=np.int64), np.zeros((capacity, COLUMNS), dtype=np.int32)

@@ -72,3 +72,5 @@ class Reconstruction:
     scans_ordered: bool = False  # True where scan_id never decreases over the pass (a run can be replayed)
     assumptions: tuple[str, ...] = ()  # sentences: what was guessed (unit, up axis, ...) and why
     format: str = ""  # "PLY", "PCD", ...
+    scans: int | None = None  # places or moments from which it was seen; None where not known
+    topics: tuple[str, ...] = ()  # of a recording: what is in it, "/points: 120 PointCloud2"

@@ -39,7 +39,6 @@ class Storey:
     ceiling_z: float | None  # None where no ceiling was seen
     bottom: HeightMap  # what lies below belongs to the storey below
     top: HeightMap  # what lies above belongs to the storey above
-    area: float  # m2 of horizontal surface seen at the height of the floor
 
     def holds(self, points: Float) -> NDArray[np.bool_]:
         """(N,) which of (N, 3) points, manhattan frame, lie in this storey."""

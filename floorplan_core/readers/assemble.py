@@ -58,7 +58,16 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
         scans_ordered=rows is not None and source.scan_ids is not None and source.scan_ids.ordered,
         assumptions=(*source.notes, *notes, *guess.sentences),
         format=source.format,
+        scans=_scan_count(source),
+        topics=source.topics,
     )
+
+
+def _scan_count(source: PointSource) -> int | None:
+    """As the file says, else by the scan ids of its points."""
+    if source.scans is not None or source.scan_ids is None:
+        return source.scans
+    return source.scan_ids.highest - source.scan_ids.lowest + 1
 
 
 def _guess(source: PointSource, points: Float, path: Trajectory | None, options: ReadOptions) -> AxisGuess:

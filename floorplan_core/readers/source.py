@@ -67,3 +67,5 @@ class PointSource:
     unit: str = "auto"  # "m" where the format fixes it; what the user asks for goes before
     up: str = "auto"  # "z" where the format fixes it
     crs: str = ""  # coordinate reference system that the file states
+    scans: int | None = None  # that the file holds, where it says so
+    topics: tuple[str, ...] = ()  # of a recording: name, number and type of the messages of each

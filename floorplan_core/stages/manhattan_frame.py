@@ -62,7 +62,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
             "lower it."
         )
     rotation = _rotation_about_z(-yaw) @ level
-    floor, ceiling = _floor_and_ceiling(surfels, normals, rotation)
+    floor, ceiling = floor_and_ceiling(surfels, normals, rotation)
     tilt = math.acos(float(np.clip(up[2], -1, 1)))
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
 
@@ -188,7 +188,7 @@ def _sharpness(points, axis, yaws, width):  # type: ignore[no-untyped-def]
     return score
 
 
-def _floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) -> tuple[float, float | None]:
+def floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) -> tuple[float, float | None]:
     """Heights of the lowest strong horizontal level and of the highest at least 1.8 m above it."""
     n = normals.normal @ rotation.T
     z = (normals.centre @ rotation.T)[:, 2]

@@ -1,0 +1,291 @@
+"""Storeys of one survey, found from its floors and ceilings (the paper has one storey and does not say).
+
+In: surfels of the whole survey and the Manhattan frame. Out: :class:`Storey`, lowest first; one for nearly
+every survey. A storey ends at a *slab*: a ceiling with the floor of the next storey closely above it, or a
+single level where only one of the two was seen. What else is horizontal is no slab: below a slab there is a
+floor of its own, above it a ceiling or walls, under (over) the same places. A table or a raised floor has no
+room below, a suspended ceiling none above, a gallery covers too little. Slabs at different heights that lie
+beside each other are one: the halves of a split-level house, whose storeys then have a step.
+Cost: one pass over the surfels, and nothing for surveys that are too low for two storeys.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import StoreysConfig
+from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
+from floorplan_core.geometry.columns import LEVEL, LEVELS
+from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
+from floorplan_core.model import ManhattanFrame
+from floorplan_core.model.evidence import Evidence
+from floorplan_core.model.storey import HeightMap, Storey
+from floorplan_core.stages.manhattan_frame import floor_and_ceiling
+
+Float = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_COLUMN = 0.5  # m, cells of the plan in which levels are compared: wider than the holes of a scan
+_PATCH = 0.25  # m, cells in which normals are fitted
+_PLANARITY = 0.15  # largest ratio of a patch's thickness to its width
+_BIN = 0.05  # m of height
+_APART = 0.12  # m between levels: a thin slab still has two
+_LEVEL_REACH = 0.06  # m from a level's height up to which patches count for its height
+_SEEN_REACH = 0.12  # m, and for where it was seen
+_LEVEL_SHARE = 0.1  # of the largest level: smaller ones are no slabs, only tables, landings and sills
+_OVERLAP = 0.3  # share of the smaller of two levels that lies over the other
+_WALL_SHARE = 0.4  # of the walls below a slab that must stand above it where no ceiling was seen there
+_BESIDE = 0.2  # share of overlap up to which two slabs lie beside each other
+_THICK = 0.12  # m, a thinner slab has only one level: both storeys get its points
+_MARGIN = 0.06  # m around such a level: its noise
+_FLAT, _STEEP = math.cos(math.radians(20)), math.sin(math.radians(15))  # |z| of normals of floors and walls
+_WALL_BAND = (0.3, 2.2)  # m from a floor, where walls are looked for
+_ENDS = (0.002, 0.998)  # quantiles of height: the rest are ghosts
+
+
+@dataclass(frozen=True)
+class _Level:
+    """A horizontal surface: where it was seen, and how high."""
+
+    z: float
+    seen: Mask  # (ny, nx)
+
+    @property
+    def size(self) -> int:
+        return int(np.count_nonzero(self.seen))
+
+
+@dataclass(frozen=True)
+class _Slab:
+    """Ceiling of one storey and floor of the next."""
+
+    ceiling: float
+    floor: float
+    seen: Mask  # (ny, nx) where either was seen
+    common: int  # cells in which both were
+
+    @property
+    def lower_end(self) -> float:
+        """Height at which the storey above begins."""
+        return self.ceiling - _MARGIN if self.floor - self.ceiling < _THICK else self._middle
+
+    @property
+    def upper_end(self) -> float:
+        """Height at which the storey below ends."""
+        return self.floor + _MARGIN if self.floor - self.ceiling < _THICK else self._middle
+
+    @property
+    def _middle(self) -> float:
+        return (self.ceiling + self.floor) / 2
+
+
+def is_tall(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig) -> bool:
+    """True where two storeys would fit between the lowest and the highest surfels (a sample is enough)."""
+    z = surfels.centroid @ frame.rotation[2]
+    low, high = np.quantile(z, _ENDS)
+    return bool(high - low > 2 * config.min_height)
+
+
+def find_storeys(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig) -> tuple[Storey, ...]:
+    """All storeys, lowest first; ``surfels`` are those of the whole survey, not a sample."""
+    only = _only_storey(frame)
+    if not is_tall(surfels, frame, config):
+        return (only,)
+    normals = fit_cell_normals(surfels.centroid, _PATCH, _PLANARITY, most=len(surfels))
+    raster = _Raster.of(normals, frame)
+    slabs = _slabs(raster, config)
+    if not slabs:
+        return (only,)
+    ends = [
+        (HeightMap.constant(-np.inf), raster.map([s.upper_end for s in slabs[0]], slabs[0])),
+        *(
+            (raster.map([s.lower_end for s in a], a), raster.map([s.upper_end for s in b], b))
+            for a, b in pairwise(slabs)
+        ),
+        (raster.map([s.lower_end for s in slabs[-1]], slabs[-1]), HeightMap.constant(np.inf)),
+    ]
+    bare = [replace(only, number=k, bottom=b, top=t) for k, (b, t) in enumerate(ends)]
+    xyz = surfels.centroid @ frame.rotation.T
+    return tuple(_with_levels(s, surfels, s.holds(xyz), frame) for s in bare)
+
+
+def restrict_surfels(surfels: SurfelMap, frame: ManhattanFrame, storey: Storey) -> SurfelMap:
+    """The surfels of one storey."""
+    xyz = surfels.surfels().centroid @ frame.rotation.T
+    return surfels.select(np.flatnonzero(storey.holds(xyz)))
+
+
+def restrict_path(path: Float, frame: ManhattanFrame, storey: Storey) -> Float:
+    """The (M, 3) sensor positions, local frame, that lie in one storey."""
+    return path[storey.holds(frame.to_manhattan(path))] if len(path) else path
+
+
+def restrict_evidence(evidence: Evidence, storey: Storey) -> Evidence:
+    """Without the free space of the storeys above: their rays lie within the columns, too."""
+    ny, nx = evidence.shape
+    y, x = np.mgrid[0:ny, 0:nx] + 0.5
+    centres = np.column_stack([x.ravel(), y.ravel()]) * evidence.cell + evidence.origin
+    levels = (storey.top.at(centres) - evidence.frame.floor_z) / LEVEL
+    count = np.clip(np.nan_to_num(levels, posinf=LEVELS), 0, LEVELS).astype(np.uint64).reshape(ny, nx)
+    below = (np.uint64(1) << count) - np.uint64(1)
+    return replace(evidence, free=evidence.free & below, occupied=evidence.occupied & below)
+
+
+def _only_storey(frame: ManhattanFrame) -> Storey:
+    low, high = HeightMap.constant(-np.inf), HeightMap.constant(np.inf)
+    return Storey(0, frame.floor_z, frame.ceiling_z, low, high)
+
+
+def _with_levels(storey: Storey, surfels: Surfels, inside: Mask, frame: ManhattanFrame) -> Storey:
+    """``storey`` with the heights of its own floor and ceiling."""
+    part = replace(
+        surfels,
+        centroid=surfels.centroid[inside],
+        count=surfels.count[inside],
+        variance=surfels.variance[inside],
+        view=surfels.view[inside],
+    )
+    normals = fit_cell_normals(part.centroid, _PATCH, _PLANARITY)
+    floor, ceiling = floor_and_ceiling(part, normals, frame.rotation)
+    return replace(storey, floor_z=floor, ceiling_z=ceiling)
+
+
+@dataclass(frozen=True)
+class _Raster:
+    """Patches of horizontal and vertical surface over the cells of the plan."""
+
+    origin: Float  # (2,) metres, manhattan frame
+    shape: tuple[int, int]  # ny, nx
+    flat_cell: NDArray[np.int64]  # (F,) cell of each horizontal patch
+    flat_z: Float  # (F,) metres
+    wall_cell: NDArray[np.int64]  # (W,) of each vertical patch
+    wall_z: Float  # (W,)
+
+    @staticmethod
+    def of(normals: CellNormals, frame: ManhattanFrame) -> _Raster:
+        """From the planar cells of the survey."""
+        upright = np.abs(normals.normal @ frame.rotation[2])
+        xyz = normals.centre @ frame.rotation.T
+        origin = np.floor(xyz[:, :2].min(axis=0) / _COLUMN) * _COLUMN
+        index = ((xyz[:, :2] - origin) / _COLUMN).astype(np.int64)
+        nx, ny = (int(n) + 1 for n in index.max(axis=0))
+        cell, flat, wall = index[:, 1] * nx + index[:, 0], upright > _FLAT, upright < _STEEP
+        return _Raster(origin, (ny, nx), cell[flat], xyz[flat, 2], cell[wall], xyz[wall, 2])
+
+    def level(self, z: float) -> _Level:
+        """The horizontal surface around a height."""
+        near = np.abs(self.flat_z - z) < _LEVEL_REACH
+        seen = np.abs(self.flat_z - z) < _SEEN_REACH
+        return _Level(float(self.flat_z[near].mean()) if near.any() else z, self._mask(self.flat_cell[seen]))
+
+    def levels(self) -> list[_Level]:
+        """The large horizontal surfaces, rising."""
+        if len(self.flat_z) == 0:
+            return []
+        low = float(self.flat_z.min()) - _BIN
+        bins = ((self.flat_z - low) / _BIN).astype(np.int64)
+        pairs = np.unique(bins * (self.shape[0] * self.shape[1]) + self.flat_cell)
+        counts = np.bincount(pairs // (self.shape[0] * self.shape[1]), minlength=int(bins.max()) + 3)
+        smooth = np.convolve(counts, np.ones(3), mode="same")
+        chosen: list[int] = []
+        for k in np.argsort(-smooth, kind="stable").tolist():
+            if smooth[k] < _LEVEL_SHARE * smooth.max():
+                break
+            if all(abs(k - other) * _BIN > _APART for other in chosen):
+                chosen.append(k)
+        return [self.level(low + (k + 0.5) * _BIN) for k in sorted(chosen)]
+
+    def walls(self, low: float, high: float, where: Mask) -> int:
+        """Vertical patches between two heights, over the cells ``where``."""
+        between = (self.wall_z > low) & (self.wall_z < high)
+        return int(np.count_nonzero(where.ravel()[self.wall_cell[between]]))
+
+    def map(self, heights: Sequence[float], slabs: Sequence[_Slab]) -> HeightMap:
+        """Everywhere the height of the nearest of ``slabs``."""
+        if len(slabs) == 1:
+            return HeightMap.constant(heights[0])
+        from scipy.ndimage import distance_transform_edt
+
+        owner = np.full(self.shape, -1)
+        for k, slab in enumerate(slabs):
+            owner[slab.seen] = k
+        _, (iy, ix) = distance_transform_edt(owner < 0, return_indices=True)
+        height = np.array(heights)[owner[iy, ix]]
+        return HeightMap(height, (float(self.origin[0]), float(self.origin[1])), _COLUMN)
+
+    def _mask(self, cells: NDArray[np.int64]) -> Mask:
+        mask = np.zeros(self.shape, dtype=bool)
+        mask.ravel()[cells] = True
+        return mask
+
+
+def _slabs(raster: _Raster, config: StoreysConfig) -> list[list[_Slab]]:
+    """Between each storey and the next: the slab, in pieces where it has steps. Lowest first."""
+    levels = raster.levels()
+    least = config.min_share * max((level.size for level in levels), default=0)
+    found = [
+        slab
+        for c in levels
+        for f in levels
+        if 0 <= f.z - c.z <= config.max_slab and (slab := _slab(c, f, levels, raster, config, least))
+    ]
+    # two levels are better than one, more common ground is better than less, ties go to the lower slab
+    found.sort(key=lambda s: (s.ceiling == s.floor, -s.common, s.ceiling))
+    chosen: list[_Slab] = []
+    for slab in found:
+        if not any(_same_place(slab, other, config.min_height) for other in chosen):
+            chosen.append(slab)
+    return _grouped(sorted(chosen, key=lambda s: s.floor), config.min_height)
+
+
+def _slab(
+    c: _Level, f: _Level, levels: list[_Level], raster: _Raster, config: StoreysConfig, least: float
+) -> _Slab | None:
+    """The slab between two levels (or of one), where there is a room below and a room above it."""
+    common = c.seen & f.seen
+    if min(c.size, f.size) < least or _overlap(c, f) < _OVERLAP:
+        return None
+    has_floor = any(b.z <= c.z - config.min_height and _overlap(b, c) >= _OVERLAP for b in levels)
+    has_ceiling = any(a.z >= f.z + config.min_height and _overlap(a, f) >= _OVERLAP for a in levels)
+    if not has_floor or not (has_ceiling or _walls_above(c, f, raster)):
+        return None
+    return _Slab(c.z, f.z, c.seen | f.seen, int(np.count_nonzero(common)))
+
+
+def _walls_above(c: _Level, f: _Level, raster: _Raster) -> bool:
+    """True where walls stand above a slab as they do below it."""
+    from scipy.ndimage import binary_dilation
+
+    near, far = _WALL_BAND
+    where = binary_dilation(c.seen | f.seen)
+    above, below = raster.walls(f.z + near, f.z + far, where), raster.walls(c.z - far, c.z - near, where)
+    return above > _WALL_SHARE * below > 0
+
+
+def _overlap(a: _Level, b: _Level) -> float:
+    """Common cells of two levels, as a share of the smaller."""
+    return int(np.count_nonzero(a.seen & b.seen)) / max(1, min(a.size, b.size))
+
+
+def _same_place(a: _Slab, b: _Slab, height: float) -> bool:
+    """True where no storey fits between two slabs, one above the other."""
+    smaller = min(int(np.count_nonzero(a.seen)), int(np.count_nonzero(b.seen)))
+    beside = int(np.count_nonzero(a.seen & b.seen)) <= _BESIDE * smaller
+    return abs(a.floor - b.floor) < height and not beside
+
+
+def _grouped(slabs: list[_Slab], height: float) -> list[list[_Slab]]:
+    """Rising slabs; those that lie beside each other at nearly the same height are one with steps."""
+    groups: list[list[_Slab]] = []
+    for slab in slabs:
+        if groups and slab.floor - groups[-1][0].floor < height:
+            groups[-1].append(slab)
+        else:
+            groups.append([slab])
+    return groups
