@@ -1,0 +1,73 @@
+"""Icons by name from resources/icons (Lucide), tinted with the theme's text colour."""
+
+from __future__ import annotations
+
+import weakref
+from functools import lru_cache
+from typing import Any
+
+from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+
+from floorcast_app import theme
+
+SIZES = (16, 20, 24, 32, 48)  # pixels: what menus, buttons and big buttons ask for, also at twice the density
+
+_targets: weakref.WeakKeyDictionary[Any, tuple[str, str]] = weakref.WeakKeyDictionary()
+
+
+def exists(name: str) -> bool:
+    """True where resources/icons has the icon."""
+    return bool(name) and theme.resource("icons", f"{name}.svg").is_file()
+
+
+def icon(name: str, colour: str = "") -> QIcon:
+    """The icon in the theme's text colour, or in ``colour`` ("#rrggbb"); an empty one where there is none."""
+    return _icon(name, colour or theme.colours().text, theme.colours().faint)
+
+
+def pixmap(name: str, size: int, colour: str = "") -> QPixmap:
+    """The icon as a picture of ``size`` x ``size`` pixels."""
+    return _drawn(name, size, colour or theme.colours().text)
+
+
+def set_icon(target: Any, name: str, colour_role: str = "text") -> None:
+    """``target.setIcon`` now, and again whenever the theme changes. ``colour_role``: a field of Colours."""
+    _targets[target] = (name, colour_role)
+    target.setIcon(icon(name, getattr(theme.colours(), colour_role)))
+
+
+@lru_cache(maxsize=512)
+def _icon(name: str, colour: str, faint: str) -> QIcon:
+    made = QIcon()
+    if not exists(name):
+        return made
+    for size in SIZES:
+        made.addPixmap(_drawn(name, size, colour))
+        made.addPixmap(_drawn(name, size, faint), QIcon.Mode.Disabled)
+    return made
+
+
+@lru_cache(maxsize=1024)
+def _drawn(name: str, size: int, colour: str) -> QPixmap:
+    picture = QPixmap(size, size)
+    picture.fill(Qt.GlobalColor.transparent)
+    if exists(name):
+        svg = theme.resource("icons", f"{name}.svg").read_text(encoding="utf-8")
+        svg = svg.replace("currentColor", colour).replace('stroke-width="2"', 'stroke-width="1.75"')
+        painter = QPainter(picture)
+        QSvgRenderer(QByteArray(svg.encode())).render(painter, QRectF(0, 0, size, size))
+        painter.end()
+    return picture
+
+
+def _retint(_name: str) -> None:
+    for target, (name, role) in list(_targets.items()):
+        try:
+            target.setIcon(icon(name, getattr(theme.colours(), role)))
+        except RuntimeError:  # Qt has deleted the widget; Python has not yet
+            _targets.pop(target, None)
+
+
+theme.changed.connect(_retint)
