@@ -60,12 +60,24 @@ def test_root_installs_what_is_missing_and_nothing_else(
     set_up: ModuleType, commands: list[list[str]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(set_up, "loads", lambda library: library != "libusb-1.0.so.0")
+    monkeypatch.setattr(set_up, "missing_window_packages", list)
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     monkeypatch.setattr(set_up.shutil, "which", lambda name: f"/usr/bin/{name}")
     assert set_up.main(str(tmp_path / "venv")) == 0
     apt = [c for c in commands if "apt-get" in c]
     assert [c[c.index("apt-get") + 4] for c in apt] == ["update", "install"]
     assert apt[1][-1] == "libusb-1.0-0" and "libgl1" not in apt[1]
+    assert commands[-1][-2:] == ["--editable", ".[dev]"]
+
+
+@linux_only
+def test_without_what_windows_need_everything_else_goes_on(
+    set_up: ModuleType, commands: list[list[str]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(set_up, "loads", lambda library: "xcb" not in library)
+    monkeypatch.setattr(os, "geteuid", lambda: 1000)  # and sudo asks for a password
+    assert "libxcb-cursor0" in set_up.missing_window_packages()
+    assert set_up.main(str(tmp_path / "venv")) == 0
     assert commands[-1][-2:] == ["--editable", ".[dev]"]
 
 

@@ -15,20 +15,33 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 EXTRAS = "dev"
-LIBRARIES = {  # what Open3D loads, and the package of Debian and Ubuntu that brings it
+LIBRARIES = {  # what Open3D and Qt load, and the package of Debian and Ubuntu that brings it
     "libGL.so.1": "libgl1",
     "libEGL.so.1": "libegl1",
     "libX11.so.6": "libx11-6",
     "libusb-1.0.so.0": "libusb-1.0-0",
     "libgomp.so.1": "libgomp1",
     "libstdc++.so.6": "libstdc++6",
+    "libxkbcommon.so.0": "libxkbcommon0",
+    "libdbus-1.so.3": "libdbus-1-3",
+    "libfontconfig.so.1": "libfontconfig1",
+    "libglib-2.0.so.0": "libglib2.0-0",
 }
+WINDOW_LIBRARIES = {  # what Qt's own windows need beside them; offscreen work does without
+    "libxcb-cursor.so.0": "libxcb-cursor0",
+    "libxcb-icccm.so.4": "libxcb-icccm4",
+    "libxcb-keysyms.so.1": "libxcb-keysyms1",
+    "libxcb-shape.so.0": "libxcb-shape0",
+    "libxkbcommon-x11.so.0": "libxkbcommon-x11-0",
+}
+WINDOW_PROGRAMS = {"Xvfb": "xvfb", "xauth": "xauth"}  # a screen for the tests of the window
 
 
 def main(folder: str) -> int:
     """Set up ``folder``; 0 when ready, 1 with one line on stderr when not."""
     missing = missing_packages()
-    if missing and not install_packages(missing):
+    wanted = missing_window_packages()
+    if (missing or wanted) and not install_packages([*missing, *wanted]) and missing:
         return say(
             "Floorcast needs system packages that only an administrator can install; run: "
             f"sudo apt-get install -y --no-install-recommends {' '.join(missing)}   and then make again."
@@ -53,6 +66,14 @@ def missing_packages() -> list[str]:
     if not all(importlib.util.find_spec(module) for module in ("venv", "ensurepip")):
         packages.append(f"python3.{sys.version_info.minor}-venv")
     return packages
+
+
+def missing_window_packages() -> list[str]:
+    """Names of the packages without which there are no windows, but everything else."""
+    if not sys.platform.startswith("linux"):
+        return []
+    libraries = [package for library, package in WINDOW_LIBRARIES.items() if not loads(library)]
+    return libraries + [package for name, package in WINDOW_PROGRAMS.items() if not shutil.which(name)]
 
 
 def loads(library: str) -> bool:
@@ -96,7 +117,7 @@ def make_environment(folder: Path) -> Path | None:
 def install_project(python: Path) -> int:
     """Install Floorcast with its pinned dependencies into the environment of ``python``."""
     sys.stderr.write(
-        "Installing Floorcast and what it needs (about 500 MB, some minutes the first time) ...\n"
+        "Installing Floorcast and what it needs (about 650 MB, some minutes the first time) ...\n"
     )
     pip = [str(python), "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--retries", "5"]
     if not run([*pip, "--editable", f".[{EXTRAS}]"]):

@@ -1,4 +1,4 @@
-"""``floorcast gui``: the desktop application, where it is installed."""
+"""``floorcast gui``: the desktop application."""
 
 from __future__ import annotations
 
@@ -11,24 +11,28 @@ import typer
 from floorplan_core.cli.options import DebugFlag
 
 APPLICATION = "floorcast_app"
+QT = "PySide6"
 
 
 def gui(
-    survey: Annotated[Path | None, typer.Argument(metavar="[INPUT]", help="Survey or plan to open.")] = None,
+    survey: Annotated[
+        Path | None, typer.Argument(metavar="[INPUT]", help="Survey or project to open.")
+    ] = None,
     script: Annotated[
-        Path | None, typer.Option("--script", metavar="FILE", help="Run a script offscreen.")
+        Path | None,
+        typer.Option(
+            "--script",
+            metavar="FILE",
+            help="Run a script offscreen: Python that uses `app`, or a JSON list of actions.",
+        ),
     ] = None,
     debug: DebugFlag = False,
 ) -> None:
-    """Open the desktop application (not part of this version)."""
-    from floorplan_core import __version__
-    from floorplan_core.errors import UsageError
-
-    if find_spec(APPLICATION) is None:
-        raise UsageError(
-            f"The desktop application is not part of Floorcast {__version__}; "
-            "use 'floorcast plan' and open plan.svg in a browser."
-        )
+    """Open the desktop application, or run a script of its actions without a display."""
     from importlib import import_module
 
+    from floorplan_core.errors import UsageError
+
+    if find_spec(APPLICATION) is None or find_spec(QT) is None:
+        raise UsageError("The desktop application needs Qt, which is not installed; 'make setup' brings it.")
     raise typer.Exit(import_module(APPLICATION).run(survey, script))
