@@ -33,7 +33,8 @@ METRICS = (
     Metric("iou_entered", "room IoU, entered", 3, 1, 0.96, 0.9),
     Metric("recall_glimpsed", "room recall, glimpsed", 3, 1, 0.8),
     Metric("iou_glimpsed", "room IoU, glimpsed", 3, 1, 0.6),
-    Metric("labels", "labels", 3, 1, 0.97),
+    Metric("labels", "labels, the paper's", 3, 1, 0.97),
+    Metric("labels_shape", "labels, shape", 3, 1, 0.97),
     Metric("door_precision", "door precision", 3, 1, 0.95, 0.85),
     Metric("door_recall", "door recall", 3, 1, 0.95, 0.85),
     Metric("door_width_m", "door width error, m", 3, -1, 0.03),
@@ -47,8 +48,11 @@ METRICS = (
 GROSS_DIMENSION = 0.1
 
 
-def record(report: EvaluationReport) -> Record:
-    """The metrics of one report; None where the truth or the plan cannot tell."""
+def record(report: EvaluationReport, by_shape: EvaluationReport | None = None) -> Record:
+    """The metrics of one report; None where the truth or the plan cannot tell.
+
+    ``by_shape`` is of the same plan with the labels of the other classifier; None where there are none.
+    """
     dimensions, rooms, doors, free = report.dimensions, report.rooms_entered, report.doors, report.free_space
     glimpsed = report.rooms_glimpsed
     return {
@@ -66,6 +70,7 @@ def record(report: EvaluationReport) -> Record:
         "merged": report.merged,
         "split": report.split,
         "labels": report.label_accuracy,
+        "labels_shape": by_shape and by_shape.label_accuracy,
         "door_precision": doors and doors.precision,
         "door_recall": doors and doors.recall,
         "door_width_m": doors and doors.mean_width_error_m,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from benchmarks.accuracy.cases import Case
@@ -16,6 +17,8 @@ from floorplan_core.evaluation import compare, load_truth, read_plan
 from floorplan_core.evaluation.plan_file import PlanFile
 from floorplan_core.evaluation.truth import Truth
 from floorplan_core.observer import Observer
+
+OTHER_CLASSIFIER = "shape"  # compared with the paper's, which is the default
 
 
 def run_cases(cases: list[Case], config: Config, report: Callable[[Case, Record], None]) -> list[Record]:
@@ -34,8 +37,9 @@ def run_case(case: Case, config: Config) -> Record:
     folder = survey_folder(case, observer)
     truth = load_truth(folder)
     started, error = time.perf_counter(), ""
+    labels: dict[str, str] = {}
     try:
-        plan = make_plan(cloud(folder), plan_folder(case), config, observer)
+        plan, labels = make_plan(cloud(folder), plan_folder(case), config, observer)
     except Cancelled:
         raise
     except FloorPlanError as failure:
@@ -50,19 +54,26 @@ def run_case(case: Case, config: Config) -> Record:
         "error": error,
         "seconds": seconds,
     }
-    return {**head, **record(compare(plan, truth))}
+    return {**head, **record(compare(plan, truth), compare(relabelled(plan, labels), truth))}
 
 
-def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> PlanFile:
-    """The main job, down to the file that others read."""
+def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> tuple[PlanFile, dict[str, str]]:
+    """The main job, down to the file that others read; and each region's label by the other classifier."""
     from floorplan_core import open_survey, process
     from floorplan_core.exporters.geojson import GeoJsonExporter
+    from floorplan_core.plugins import find_classifier
 
     out.mkdir(parents=True, exist_ok=True)
     file = out / "plan.geojson"
     file.unlink(missing_ok=True)
-    GeoJsonExporter().write(process(open_survey(points), config, observer), file)
-    return read_plan(file)
+    plan, other = process(open_survey(points), config, observer), find_classifier(OTHER_CLASSIFIER)
+    GeoJsonExporter().write(plan, file)
+    return read_plan(file), {r.id: other.classify(r, plan.regions, config) for r in plan.regions}
+
+
+def relabelled(plan: PlanFile, labels: dict[str, str]) -> PlanFile:
+    """The plan with other labels; regions that ``labels`` does not name keep theirs."""
+    return replace(plan, regions=tuple(replace(r, label=labels.get(r.id, r.label)) for r in plan.regions))
 
 
 def nothing() -> PlanFile:

@@ -29,6 +29,8 @@ the same in a mean.
   over union; found at 0.5; the mean IoU counts a missed room as 0. *Entered*: the sensor was inside and saw
   at least half of the floor; *glimpsed*: it saw at least 15 %; rooms seen less are neither expected nor
   forbidden.
+- **labels**: room or corridor, over the rooms found; by the paper's classifier (the default) and by `shape`
+  (`--set labels.classifier=shape`).
 - **doors**: same wall (middles within 0.5 m across it) and overlapping along it by half of the narrower
   one. Expected are open doors of rooms that were entered; shut ones may be found or not; a window called a
   door is wrong. Width errors are over the doors found.

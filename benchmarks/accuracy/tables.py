@@ -17,6 +17,7 @@ COLUMNS = (
     ("iou_entered", "IoU", 3),
     ("recall_glimpsed", "glimpsed", 2),
     ("labels", "labels", 2),
+    ("labels_shape", "shape", 2),
     ("door_precision", "door P", 2),
     ("door_recall", "door R", 2),
     ("door_width_m", "width m", 3),
