@@ -55,6 +55,8 @@ class FloorPlan:
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage
     storey: int = 0
     raster: MapRaster | None = None  # of the grid map that it was made from
+    corrected: tuple[tuple[str, str], ...] = ()  # (kind, id) of what a person changed
+    machine: dict[str, str] = field(default_factory=dict)  # by id: what the machine had said of it
 
     def to_world(self, xy: Float) -> Float:
         """(N, 2) manhattan plan coordinates to (N, 2) coordinates of the input's world frame, metres."""

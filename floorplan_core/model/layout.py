@@ -97,6 +97,7 @@ class LayoutPlane:
     walls: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))
     observed: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))  # (K, 2) runs really seen
     recess: bool = False  # True: it lies in a recess of another plane's wall (a pane, a shut leaf, a niche)
+    by_hand: str = ""  # what a person said of it: "hidden" (no wall), "kept", "moved" or "added"; "" nothing
 
 
 @dataclass(frozen=True)
@@ -115,6 +116,7 @@ class Door:
     confidence: float = 0.5  # 0 to 1
     evidence: tuple[str, ...] = ()  # words
     connects: tuple[str, ...] = ()  # ids of the one or two regions that it joins
+    by_hand: str = ""  # what a person said of it: "accepted", "resized" or "added"; "" nothing
 
     @property
     def width(self) -> float:

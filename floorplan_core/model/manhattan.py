@@ -32,3 +32,9 @@ class ManhattanFrame:
     def to_manhattan(self, points: Float) -> Float:
         """(N, 3) local coordinates to (N, 3) manhattan ones."""
         return np.asarray(points, dtype=np.float64) @ self.rotation.T
+
+    def plan_from_local(self, xy: Float) -> Float:
+        """(N, 2) local positions on the floor to (N, 2) manhattan ones; undoes :meth:`from_manhattan`."""
+        flat = np.asarray(xy, dtype=np.float64).reshape(-1, 2)
+        z = (self.floor_z - flat @ self.rotation[2, :2]) / self.rotation[2, 2]
+        return self.to_manhattan(np.column_stack([flat, z]))[:, :2]

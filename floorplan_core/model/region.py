@@ -47,6 +47,7 @@ class Region:
     height: float | None = None  # metres, floor to ceiling
     confidence: float = 1.0  # 0 to 1
     rectangles: NDArray[np.int64] | None = None  # rows of the cover
+    by_hand: tuple[str, ...] = ()  # what a person did to it: "split", "merged", "label", "name"
 
     @property
     def area(self) -> float:

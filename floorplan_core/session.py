@@ -1,0 +1,116 @@
+"""A survey that is read once and planned many times: what a window or a notebook works with.
+
+``open`` finds the reader, ``read`` integrates all points (once), ``plan`` brings the plan up to date with
+settings and corrections and runs only the steps that depend on what changed. Steps that were done stay done
+when a run is cancelled. One thread at a time; nothing here knows a screen.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from floorplan_core.config import Config
+from floorplan_core.errors import UsageError
+from floorplan_core.model import GridMap, PointChunk, Reconstruction
+from floorplan_core.model.corrections import Correction
+from floorplan_core.observer import Observer
+
+if TYPE_CHECKING:
+    from floorplan_core.model import FloorPlan
+    from floorplan_core.pipeline import FloorPlanner
+
+Keep = Callable[[PointChunk], None]
+
+
+class PlanningSession:
+    """One opened survey (or occupancy grid map) with everything that replanning needs."""
+
+    def __init__(
+        self, reconstruction: Reconstruction, config: Config, grid_map: GridMap | None = None
+    ) -> None:
+        self.reconstruction = reconstruction
+        self.ready = grid_map is not None  # True once all points were integrated
+        self._grid_map = grid_map
+        self._read_with = config
+        self._planner: FloorPlanner | None = None
+        self._read_seconds = 0.0
+
+    @classmethod
+    def open(
+        cls,
+        path: Path,
+        trajectory: Path | None,
+        config: Config,
+        observer: Observer,
+        resolution: float | None = None,
+    ) -> PlanningSession:
+        """Open a survey with the readers of all plugins, or a grid map.
+
+        :param resolution: metres a pixel, for the picture of a grid map without its YAML.
+        :raises InputError: for anything that cannot be read or is not what it claims.
+        """
+        from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
+        from floorplan_core.plugins import default_registry
+        from floorplan_core.readers import open_survey
+        from floorplan_core.readers.grid_map import is_grid_map, read_grid_map
+
+        use_kernel_cache()
+        if is_grid_map(path):
+            grid_map = read_grid_map(path, resolution)
+            empty = Reconstruction(
+                grid_map.name, lambda: iter(()), 0, assumptions=grid_map.assumptions, format="grid map"
+            )
+            return cls(empty, config, grid_map)
+        opened = open_survey(path, trajectory, config.input, observer, default_registry())
+        if not kernels_compiled():
+            observer.stage_started("compile")  # the first run of a version: about a minute
+        return cls(opened, config)
+
+    def must_read_again(self, config: Config) -> bool:
+        """True where ``config`` changes how points are read or integrated: open the survey anew."""
+        if self._grid_map is not None:
+            return False
+        return (config.input, config.voxels) != (self._read_with.input, self._read_with.voxels)
+
+    def read(self, observer: Observer, keep: Keep | None = None) -> None:
+        """Integrate all points; ``keep`` sees every chunk. Cancelled half way, it begins anew next time."""
+        if self.ready:
+            return
+        from floorplan_core.pipeline import FloorPlanner
+
+        survey = self.reconstruction
+        planner = FloorPlanner(self._read_with, observer, survey.name, survey.local_frame)
+        planner.map.expect(survey.point_count or 0)
+        began, done = time.perf_counter(), 0
+        observer.stage_started("read", survey.point_count)
+        for chunk in survey.chunks():
+            observer.check_cancelled()
+            if keep is not None:
+                keep(chunk)
+            planner.integrate_chunk(chunk, survey.trajectory)
+            done += len(chunk.points)
+            observer.progress("read", done)
+        planner.map.settle()
+        self._read_seconds = time.perf_counter() - began
+        observer.stage_finished("read", self._read_seconds)
+        self._planner, self.ready = planner, True
+
+    def plan(self, config: Config, corrections: Sequence[Correction], observer: Observer) -> FloorPlan:
+        """The plan with these settings and corrections; only what they change is made anew.
+
+        :raises NoPlanError: where no plan can be made; :class:`UsageError` before :meth:`read`.
+        """
+        if self._grid_map is not None:
+            from floorplan_core.grid_pipeline import plan_grid_map
+
+            return plan_grid_map(self._grid_map, config, observer)
+        planner = self._planner
+        if planner is None or not self.ready:
+            raise UsageError("The survey was not read yet.")
+        planner.config, planner.observer = config, observer
+        plan = planner.plan()
+        plan.seconds["read"] = self._read_seconds - plan.seconds["integrate"]
+        return plan
