@@ -76,7 +76,7 @@ class StageRunner:
         return self._remembered(f"{name} {self._count[name]}", lambda: self._timed(name, work), made_of)
 
     def correct(self, name: str, work: Callable[[], T], *made_of: object) -> T:
-        """What a person makes of the machine's result: remembered, but no step of a stage, and never given."""
+        """What a person makes of the machine's result: remembered, but no stage's step, and never given."""
         self._observer.check_cancelled()
         return self._remembered(f"correct {name}", work, made_of)
 
