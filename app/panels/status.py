@@ -1,0 +1,70 @@
+"""The status bar: what runs, where the pointer is, and what the plan is made of."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
+
+from floorcast_app.format import angle, count, length, percent, seconds
+from floorcast_app.panels.base import listener_of
+from floorcast_app.panels.progress_strip import ProgressStrip
+from floorcast_app.translation import tr
+from floorcast_app.workbench import Workbench
+
+
+class StatusBar(QStatusBar):
+    """Pieces, each of which knows what it shows."""
+
+    def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workbench = workbench
+        self.setSizeGripEnabled(False)
+        self.pointer = QLabel()
+        self.frame, self.points, self.counts, self.ready = QLabel(), QLabel(), QLabel(), QLabel()
+        self.pointer.setMinimumWidth(160)
+        self.progress = ProgressStrip(workbench, self)
+        self.addWidget(self.pointer)
+        self.addWidget(self.progress)
+        for piece in (self.frame, self.points, self.counts, self.ready):
+            self.addPermanentWidget(piece)
+        self._connect()
+        self._refresh()
+
+    def _connect(self) -> None:
+        w = self._workbench
+        for event, then in (
+            (w.pointer_moved, self._moved),
+            (w.plan_changed, self._refresh),
+            (w.points_changed, self._refresh),
+            (w.view.changed, self._refresh),
+            (w.jobs.ended, self._refresh),
+        ):
+            event.connect(listener_of(self, then, event))
+
+    def _moved(self, x: float | None, y: float | None) -> None:
+        units = self._workbench.view.look.units
+        if x is None or y is None:
+            self.pointer.clear()
+        elif units == "m":
+            self.pointer.setText(f"x {x:.3f}  y {y:.3f} m")
+        else:
+            self.pointer.setText(f"x {length(x, units)}  y {length(y, units)}")
+
+    def _refresh(self, *_: object) -> None:
+        plan, points = self._workbench.plan, len(self._workbench.points)
+        shown = plan.point_count if plan is not None else points
+        self.points.setText(tr("{n} points").format(n=count(shown)) if shown else "")
+        for piece in (self.frame, self.counts, self.ready):
+            piece.setVisible(plan is not None)
+        if plan is None:
+            return
+        yaw, support = math.degrees(plan.frame.yaw), plan.frame.support
+        self.frame.setText(tr("frame {yaw} (support {share})").format(yaw=angle(yaw), share=percent(support)))
+        self.counts.setText(
+            tr("{planes} planes · {regions} regions · {doors} doors").format(
+                planes=len(plan.planes), regions=len(plan.regions), doors=len(plan.doors)
+            )
+        )
+        took = sum(s for stage, s in plan.seconds.items() if stage not in ("total", "read", "export"))
+        self.ready.setText(tr("ready in {time}").format(time=seconds(plan.seconds.get("total", took))))
