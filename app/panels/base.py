@@ -7,7 +7,7 @@ from typing import Any
 
 import shiboken6
 from PySide6.QtCore import QPoint, Qt, QTimer
-from PySide6.QtGui import QImage, QPainter
+from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from floorcast_app import theme
@@ -65,7 +65,7 @@ def picture_of(widget: QWidget, width: int, height: int) -> QImage:
     widget.resize(width, height)
     widget.ensurePolished()
     image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
-    image.fill(theme.colours().panel)
+    image.fill(QColor(theme.colours().panel))
     painter = QPainter(image)
     widget.render(painter, QPoint(0, 0))
     painter.end()

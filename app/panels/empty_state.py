@@ -6,7 +6,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QDragEnterEvent, QDragLeaveEvent, QDropEvent, QPixmap
+from PySide6.QtGui import (
+    QColor,
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDropEvent,
+    QIcon,
+    QPainter,
+    QPainterPath,
+    QPixmap,
+)
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QMainWindow, QPushButton, QToolButton, QWidget
 
 from floorcast_app import icons, theme
@@ -144,16 +153,14 @@ class DropZone(QFrame):
             return
 
 
-def _card_picture(path: Path) -> object:
-    from PySide6.QtGui import QIcon, QPainter, QPainterPath
-
+def _card_picture(path: Path) -> QIcon:
     picture = QPixmap(CARD)
     picture.fill(Qt.GlobalColor.transparent)
     painter = QPainter(picture)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     frame = QPainterPath()
     frame.addRoundedRect(0, 0, CARD.width(), CARD.height(), 6, 6)
-    painter.fillPath(frame, theme.colours().raised)
+    painter.fillPath(frame, QColor(theme.colours().raised))
     painter.setClipPath(frame)
     plan = thumbnail(path, CARD)
     if plan is None:
