@@ -131,8 +131,9 @@ def clear(layout: Any) -> None:
     """Take everything out of a layout."""
     while layout.count():
         item = layout.takeAt(0)
-        if item.widget() is not None:
-            item.widget().setParent(None)
-            item.widget().deleteLater()
+        widget = item.widget()
+        if widget is not None:
+            widget.hide()
+            widget.deleteLater()
         elif item.layout() is not None:
             clear(item.layout())
