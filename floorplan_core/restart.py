@@ -36,6 +36,7 @@ def save_stages(steps: Sequence[tuple[str, object]], plan: FloorPlan, folder: Pa
         "points": plan.point_count,
         "config": plan.config,
         "frame": plan.local_frame,
+        "storey": plan.storey,
     }
     intermediates.save(run, folder / RUN_FILE)
 
@@ -57,7 +58,7 @@ def restart(folder: Path, stage: str, config: Config, observer: Observer) -> Flo
     run = _run(folder)
     given = [intermediates.load(file, object) for file in _before(folder, stage)]
     planner = FloorPlanner(config, observer, run["source"], run["frame"])
-    return replace(planner.plan(given), point_count=run["points"])
+    return replace(planner.plan(given), point_count=run["points"], storey=run["storey"])
 
 
 def _run(folder: Path) -> dict[str, Any]:
@@ -69,8 +70,8 @@ def _run(folder: Path) -> dict[str, Any]:
             f"The folder {folder} holds no stages of a run; "
             "'floorcast plan INPUT --out DIR --save-stages' keeps them."
         )
-    run = intermediates.load(file, dict)
-    wanted = {"source": str, "points": int, "config": Config, "frame": _local_frame()}
+    run = {"storey": 0, **intermediates.load(file, dict)}  # earlier versions knew of one
+    wanted = {"source": str, "points": int, "config": Config, "frame": _local_frame(), "storey": int}
     if not all(conforms(run.get(name), kind) for name, kind in wanted.items()):
         raise InputError(f"{file.name} in {folder} does not describe a run.")
     return run

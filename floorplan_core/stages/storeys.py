@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import StoreysConfig
-from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
+from floorplan_core.geometry.cell_normals import fit_cell_normals
 from floorplan_core.geometry.columns import LEVEL, LEVELS
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.model import ManhattanFrame
@@ -97,8 +97,7 @@ def find_storeys(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig)
     only = _only_storey(frame)
     if not is_tall(surfels, frame, config):
         return (only,)
-    normals = fit_cell_normals(surfels.centroid, _PATCH, _PLANARITY, most=len(surfels))
-    raster = _Raster.of(normals, frame)
+    raster = _Raster.of(surfels, frame)
     slabs = _slabs(raster, config)
     if not slabs:
         return (only,)
@@ -168,10 +167,15 @@ class _Raster:
     wall_z: Float  # (W,)
 
     @staticmethod
-    def of(normals: CellNormals, frame: ManhattanFrame) -> _Raster:
-        """From the planar cells of the survey."""
-        upright = np.abs(normals.normal @ frame.rotation[2])
-        xyz = normals.centre @ frame.rotation.T
+    def of(surfels: Surfels, frame: ManhattanFrame) -> _Raster:
+        """From the planar cells of the survey, once more with cells half a cell higher: where both faces
+        of a thin slab lie in one cell, it is not planar, and the next cell up parts them."""
+        patches = []
+        for lift in (np.zeros(3), np.array([0.0, 0.0, _PATCH / 2])):
+            found = fit_cell_normals(surfels.centroid + lift, _PATCH, _PLANARITY, most=len(surfels))
+            patches.append((found.normal @ frame.rotation[2], (found.centre - lift) @ frame.rotation.T))
+        upright = np.abs(np.concatenate([p[0] for p in patches]))
+        xyz = np.concatenate([p[1] for p in patches])
         origin = np.floor(xyz[:, :2].min(axis=0) / _COLUMN) * _COLUMN
         index = ((xyz[:, :2] - origin) / _COLUMN).astype(np.int64)
         nx, ny = (int(n) + 1 for n in index.max(axis=0))
