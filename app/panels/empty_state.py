@@ -115,9 +115,7 @@ class DropZone(QFrame):
         layout.addStretch(1)
         layout.addWidget(self._mark)
         layout.addWidget(_centred(label(tr("Drop a survey or a project here"), "heading")))
-        formats = tr(
-            "Point clouds, meshes, runs of a robot, occupancy maps: PLY, PCD, LAS, E57, OBJ, bags, PGM …"
-        )
+        formats = tr("Point clouds, meshes, runs of a robot and occupancy maps")
         layout.addWidget(_centred(label(formats, "small", wrap=True)))
         layout.addSpacing(GRID)
         buttons = row(self.open, self.folder, self.sample)

@@ -12,6 +12,7 @@ from floorcast_app.translation import tr, tr_text
 from floorcast_app.workbench import Workbench
 
 BAR_WIDTH = 160  # px
+LEFT_WIDTH = 96  # px, so that the bar does not dance
 FULL = 1000
 STAGES = {
     "read": "Reading points",
@@ -41,6 +42,7 @@ class ProgressStrip(QWidget):
         self.bar.setTextVisible(False)
         self.bar.setFixedWidth(BAR_WIDTH)
         self.left = label("", "small")
+        self.left.setMinimumWidth(LEFT_WIDTH)
         self.cancel = QToolButton()
         icons.set_icon(self.cancel, "x", "muted")
         self.cancel.setToolTip(tr("Cancel (Esc)"))

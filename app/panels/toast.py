@@ -66,9 +66,8 @@ class Toast(QFrame):
 
     def _dress(self) -> None:
         holds = theme.colours()
-        mark = {"info": holds.tip_text, "warning": holds.door, "error": holds.error}[self.kind]
-        if self.kind == "error" and theme.name() == "light":
-            mark = theme.DARK.error  # the toast is dark in the light theme
+        other = theme.colours("dark" if theme.name() == "light" else "light")  # a toast is dark on light
+        mark = {"info": holds.tip_text, "warning": other.warning, "error": other.error}[self.kind]
         self.setStyleSheet(
             f"#toast {{ background: {holds.tip}; border-radius: 8px; }} "
             f"#toast QLabel {{ color: {holds.tip_text}; }} "
