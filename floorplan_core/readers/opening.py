@@ -14,6 +14,7 @@ from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Reader, ReadOptions
 from floorplan_core.readers.identify import identify
+from floorplan_core.readers.joining import join_surveys, open_alike
 from floorplan_core.readers.trajectory import looks_like_trajectory
 
 if TYPE_CHECKING:
@@ -34,29 +35,42 @@ def builtin_readers() -> tuple[Reader, ...]:
 
 
 def open_survey(
-    path: Path | str,
+    path: Path | str | Sequence[Path | str],
     trajectory: Path | str | None = None,
     config: InputConfig | None = None,
     observer: Observer | None = None,
     registry: PluginRegistry | None = None,
 ) -> Reconstruction:
-    """Open a file or folder with the reader that knows its content best.
+    """Open a file or folder with the reader that knows its content best; several of them as one survey.
 
     ``trajectory`` names the poses where they do not lie beside the cloud. Raises :class:`InputError` with
     one sentence for anything that cannot be read or is not what it claims.
     """
-    path = Path(path)
-    options = ReadOptions(config or InputConfig(), None if trajectory is None else Path(trajectory))
+    paths = [Path(path)] if isinstance(path, str | Path) else [Path(p) for p in path]
+    given = None if trajectory is None else Path(trajectory)
+    if given is not None:
+        check_is_file(given, "trajectory")
     observer = observer or Observer()
-    head = read_head(path)
-    if options.trajectory is not None:
-        check_is_file(options.trajectory, "trajectory")
     readers = registry.readers if registry is not None and registry.readers else builtin_readers()
-    given = path
-    if not head and not any(reader.sniff(path, head) > 0 for reader in readers):
-        path = find_cloud(path, readers)
-        head = read_head(path)
-    reader = choose_reader(path, head, readers)
+    files = [file for p in expand_patterns(paths) for file in clouds_at(p, readers)]
+
+    def open_one(number: int, settings: InputConfig) -> Reconstruction:
+        return _open_file(files[number], ReadOptions(settings, given), observer, readers)
+
+    if len(files) == 1:
+        opened = open_one(0, config or InputConfig())
+    else:
+        opened = join_surveys(open_alike(len(files), config or InputConfig(), open_one), given is not None)
+    if len(paths) == 1 and paths[0].is_dir():
+        opened = replace(opened, name=paths[0].resolve().name)  # says more than points.ply
+    return opened
+
+
+def _open_file(
+    path: Path, options: ReadOptions, observer: Observer, readers: Sequence[Reader]
+) -> Reconstruction:
+    """One file, or a folder that is one survey."""
+    reader = choose_reader(path, read_head(path), readers)
     try:
         opened = reader.open(path, options, observer)
     except FloorPlanError:
@@ -65,10 +79,35 @@ def open_survey(
         raise InputError(f"Cannot read {path.name}: {error.strerror or error}.") from error
     except (ValueError, MemoryError, OverflowError) as error:
         raise InputError(f"{path.name} is damaged ({reader.name}: {str(error)[:120]}).") from error
-    name = (
-        given.resolve().name if path != given else opened.name
-    )  # a survey's folder says more than points.ply
-    return replace(opened, name=name, assumptions=(*_mislabelled(path, reader, readers), *opened.assumptions))
+    return replace(opened, assumptions=(*_mislabelled(path, reader, readers), *opened.assumptions))
+
+
+def expand_patterns(paths: Sequence[Path]) -> list[Path]:
+    """Paths with ``*``, ``?`` or ``[...]`` become the files that fit, by name; others stay as they are."""
+    expanded: list[Path] = []
+    for path in paths:
+        if not set("*?[") & set(str(path)) or path.exists():
+            expanded.append(path)
+            continue
+        from glob import glob
+
+        found = sorted(glob(str(path)))
+        if not found:
+            raise InputError(f"No file fits the pattern {path}.")
+        expanded += [Path(f) for f in found]
+    if not expanded:
+        raise InputError("No input was named.")
+    return expanded
+
+
+def clouds_at(path: Path, readers: Sequence[Reader]) -> list[Path]:
+    """``path`` itself, or the point clouds in it where it is a folder of such."""
+    head = read_head(path)
+    return (
+        [path]
+        if head or any(reader.sniff(path, head) > 0 for reader in readers)
+        else find_clouds(path, readers)
+    )
 
 
 def choose_reader(path: Path, head: bytes, readers: Sequence[Reader]) -> Reader:
@@ -80,8 +119,8 @@ def choose_reader(path: Path, head: bytes, readers: Sequence[Reader]) -> Reader:
     return readers[best]
 
 
-def find_cloud(folder: Path, readers: Sequence[Reader]) -> Path:
-    """The one point cloud in a folder; :class:`InputError` where there is none, or a choice."""
+def find_clouds(folder: Path, readers: Sequence[Reader]) -> list[Path]:
+    """The point clouds in a folder, parts of one survey; :class:`InputError` where they are no such."""
     suffixes = {suffix for reader in readers for suffix in reader.suffixes}
     try:
         files = [f for f in sorted(folder.iterdir()) if f.suffix.lower() in suffixes and f.is_file()]
@@ -90,14 +129,24 @@ def find_cloud(folder: Path, readers: Sequence[Reader]) -> Path:
     clouds = [f for f in files if not looks_like_trajectory(f) and _is_readable(f, readers)]
     named = [f for f in clouds if f.stem == "points"]
     if len(clouds) == 1 or len(named) == 1:
-        return (named or clouds)[0]
+        return named or clouds
     name = folder.name or str(folder)
     if not clouds:
         raise InputError(
             f"The folder {name} holds no scans (numbered point clouds like 000000.ply) and no point cloud."
         )
-    listed = ", ".join(f.name for f in clouds[:5]) + (", …" if len(clouds) > 5 else "")
-    raise InputError(f"The folder {name} holds {len(clouds)} point clouds ({listed}); name one of them.")
+    if _are_versions(clouds):
+        listed = ", ".join(f.name for f in clouds[:5]) + (", …" if len(clouds) > 5 else "")
+        raise InputError(
+            f"The folder {name} holds {len(clouds)} versions of a point cloud ({listed}); name one of them."
+        )
+    return clouds
+
+
+def _are_versions(clouds: Sequence[Path]) -> bool:
+    """True where the names say: one cloud in several formats (a.las, a.e57), or points2d and points3d."""
+    stems = [f.stem.lower() for f in clouds]
+    return len(set(stems)) < len(stems) or all(stem.startswith("points") for stem in stems)
 
 
 def _is_readable(path: Path, readers: Sequence[Reader]) -> bool:

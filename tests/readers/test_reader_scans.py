@@ -131,9 +131,9 @@ def test_a_folder_with_one_cloud_is_that_cloud(tmp_path):
 
 def test_a_folder_with_a_choice(tmp_path):
     cloud = room(np.random.default_rng(7), density=10)
-    for name in ("a.ply", "b.ply"):
+    for name in ("points2d.ply", "points3d.ply"):
         write_ply(tmp_path / name, "ascii", xyz_columns(cloud))
-    with pytest.raises(InputError, match=r"2 point clouds \(a.ply, b.ply\)"):
+    with pytest.raises(InputError, match=r"2 versions of a point cloud \(points2d.ply, points3d.ply\)"):
         open_survey(tmp_path)
 
 
