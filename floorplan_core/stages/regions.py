@@ -52,7 +52,8 @@ def build_regions(
     for shape, (rows, _) in zip(shapes, groups, strict=True):
         pieces += [(walls.fit(part), rows) for part in polygons_of(shape)]
     regions = [
-        _region(polygon, rows, walls, doors, grid) for polygon, rows in _disjoint(pieces, grid, config.sliver)
+        make_region(polygon, rows, walls, doors, grid)
+        for polygon, rows in _disjoint(pieces, grid, config.sliver)
     ]
     kept = [r for r in regions if _acceptable(r, config)]
     kept.sort(
@@ -97,9 +98,10 @@ def _cells(polygon: Any, grid: OccupancyGrid) -> tuple[int, int]:
     return int(np.count_nonzero(grid.universe[window] & inside)), int(np.count_nonzero(inside))
 
 
-def _region(
+def make_region(
     polygon: Any, rows: NDArray[np.int64], walls: WallSurfaces, doors: Sequence[Door], grid: OccupancyGrid
 ) -> Region:
+    """The region of a polygon and of ``rows`` of the cover, with sides and cells; no id, name or label."""
     polygon = shapely.orient_polygons(polygon)
     sides = sides_of(polygon, walls, doors)
     length = sum(s.length for s in sides)
