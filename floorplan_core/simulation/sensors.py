@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floorplan_core.open3d_import import load_open3d
 from floorplan_core.simulation.building import Building
 from floorplan_core.simulation.solids import building_solids, glass_solids, triangles
 from floorplan_core.simulation.spec import SensorSpec
@@ -39,9 +40,7 @@ def _cast(scene: Any, rays: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _tensor(array: NDArray[Any]) -> Any:
-    import open3d
-
-    return open3d.core.Tensor.from_numpy(np.ascontiguousarray(array))
+    return load_open3d().core.Tensor.from_numpy(np.ascontiguousarray(array))
 
 
 def make_scene(building: Building) -> Scene:
@@ -51,10 +50,8 @@ def make_scene(building: Building) -> Scene:
 
 
 def _scene(solids: Float) -> Any:
-    import open3d
-
     vertices, faces = triangles(solids)
-    scene = open3d.t.geometry.RaycastingScene()
+    scene = load_open3d().t.geometry.RaycastingScene()
     scene.add_triangles(_tensor(vertices), _tensor(faces))
     return scene
 

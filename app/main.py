@@ -1,0 +1,107 @@
+"""Start: the Qt application, the window, a survey or a script."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from pathlib import Path
+
+SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
+
+
+def run(survey: Path | None = None, script: Path | None = None) -> int:
+    """Open the window with ``survey``, or run ``script`` offscreen; returns the exit status."""
+    if script is not None or not _has_display():
+        os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    if (
+        script is None
+        and os.environ.get("QT_QPA_PLATFORM") == "offscreen"
+        and "FLOORCAST_OFFSCREEN" not in os.environ
+    ):
+        from floorplan_core.errors import UsageError
+
+        raise UsageError("There is no display to open a window on; 'floorcast gui --script FILE' needs none.")
+    from floorcast_app.main_window import MainWindow
+
+    app = make_application()
+    window = make_window(unattended=script is not None)
+    assert isinstance(window, MainWindow)
+    threading.Thread(target=_warm_up, daemon=True).start()
+    if script is not None:
+        from floorcast_app.script import run_script
+
+        window.resize(*SCRIPT_SIZE)
+        window.show()
+        try:
+            if survey is not None:
+                from floorcast_app.script import ScriptedApplication
+
+                ScriptedApplication(window).run("file.open", path=survey)
+            run_script(script, window)
+        finally:
+            window.close()
+        return 0
+    window.show()
+    if survey is not None:
+        window.workbench.try_run("file.open", path=survey)
+    return int(app.exec())
+
+
+def make_application():  # type: ignore[no-untyped-def]
+    """The QApplication, with its name, theme, font and language."""
+    from PySide6.QtWidgets import QApplication
+
+    from floorcast_app import theme
+    from floorcast_app.translation import install_translator
+    from floorplan_core import __version__
+
+    app = QApplication.instance() or QApplication(sys.argv[:1])
+    app.setApplicationName("Floorcast")
+    app.setOrganizationName("Floorcast")
+    app.setApplicationVersion(__version__)
+    install_translator(app)
+    theme.apply_theme(app, "light")
+    return app
+
+
+def make_window(unattended: bool = False):  # type: ignore[no-untyped-def]
+    """The main window with an empty document; an unattended one neither asks nor remembers anything."""
+    from PySide6.QtCore import QSettings
+
+    from floorcast_app.main_window import MainWindow
+    from floorcast_app.qt_post import QtPost
+    from floorcast_app.workbench import Workbench
+
+    post = QtPost()
+    workbench = Workbench(post)
+    window = MainWindow(workbench, _settings(unattended), unattended)
+    post.setParent(window)
+    assert isinstance(QSettings(), QSettings)
+    return window
+
+
+def _settings(unattended: bool):  # type: ignore[no-untyped-def]
+    """The user's settings; those of an unattended window begin empty and are kept nowhere."""
+    from PySide6.QtCore import QSettings
+
+    if not unattended:
+        return QSettings()
+    import tempfile
+
+    folder = tempfile.mkdtemp(prefix="floorcast-")
+    return QSettings(str(Path(folder) / "settings.ini"), QSettings.Format.IniFormat)
+
+
+def _has_display() -> bool:
+    if not sys.platform.startswith("linux"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _warm_up() -> None:
+    """Load what the first plan needs while the user looks for a file."""
+    from floorplan_core.kernel_cache import use_kernel_cache
+
+    use_kernel_cache()
+    import floorplan_core.pipeline  # noqa: F401

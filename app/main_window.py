@@ -1,0 +1,286 @@
+"""The window: docks of panes, menus and a toolbar of actions, a status bar. What they do is elsewhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QCoreApplication, QSettings, QSize, Qt, QTimer
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QGuiApplication,
+    QImage,
+    QKeyEvent,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QToolBar, QWidget
+
+from floorcast_app import theme
+from floorcast_app.actions import MENUS
+from floorcast_app.dock_layout import arrange
+from floorcast_app.panels.empty_state import EmptyState
+from floorcast_app.panels.status import StatusBar
+from floorcast_app.panels.toast import Toast
+from floorcast_app.panes import PANES
+from floorcast_app.qt_actions import QtActions
+from floorcast_app.qt_interface import QtInterface
+from floorcast_app.recent import RecentFiles
+from floorcast_app.selection import Item
+from floorcast_app.view_state import Look
+from floorcast_app.workbench import Workbench
+from floorplan_core.errors import OutputError, UsageError
+
+TOOLBAR = (
+    "file.open", "file.save", "plan.again", "plan.cancel", "|", "edit.undo", "edit.redo", "|",
+    "tool.select", "tool.measure", "tool.plane", "tool.door", "tool.wall", "tool.split", "tool.merge", "|",
+    "view.fit", "file.export", "file.picture", "|", "view.inspect", "view.plan", "view.run", "view.theme",
+)  # fmt: skip
+MENU_TITLES = {
+    "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
+    "correct": "Correct", "measure": "Measure", "help": "Help",
+}  # fmt: skip
+NOT_IN_MENUS = ("plan.set", "plan.preset", "view.look", "measure.set", "edit.history")
+LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("MainWindow", text)
+
+
+class MainWindow(QMainWindow):
+    """One window, one document."""
+
+    def __init__(self, workbench: Workbench, settings: QSettings, unattended: bool = False) -> None:
+        super().__init__()
+        self.workbench, self.unattended = workbench, unattended
+        self._settings = settings
+        self._fitted = True  # False: the next plan is brought into view
+        self.recent = RecentFiles(settings)
+        self.actions_by_id = QtActions(workbench, self)
+        self.setObjectName("floorcast")
+        self.setDockNestingEnabled(True)
+        self.setAcceptDrops(True)
+        self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, self._north())
+        self.docks = {pane.id: self._dock(pane.id, pane.title, pane.make(workbench)) for pane in PANES}
+        self._fill_menus()
+        self._fill_toolbar()
+        self.status = StatusBar(workbench, self)
+        self.setStatusBar(self.status)
+        self.toast = Toast(self)
+        self.empty = EmptyState(workbench, self.recent, self)
+        workbench.ui = QtInterface(self)
+        workbench.view.changed.connect(self._look_changed)
+        workbench.document.saved_changed.connect(self._retitle)
+        workbench.survey_changed.connect(self._survey_changed)
+        workbench.plan_changed.connect(self._plan_changed)
+        workbench.recent_changed.connect(self.recent.put)
+        self.resize(1440, 900)
+        self._restore()
+        self._retitle()
+        self._survey_changed()
+
+    # ---- parts ------------------------------------------------------------------------------------------
+
+    def pane(self, id: str) -> QWidget:
+        """The widget of a pane; :class:`UsageError` where there is none of that name."""
+        if id not in self.docks:
+            raise UsageError(f"There is no pane {id!r}; the panes are: {', '.join(self.docks)}.")
+        widget = self.docks[id].widget()
+        assert widget is not None
+        return widget
+
+    def picture(self, pane: str, width: int, height: int) -> QImage:
+        """A picture of a pane, or of the whole window ("window")."""
+        if pane == "window":
+            return self._window_picture(width, height)
+        widget = self.pane(pane)
+        if hasattr(widget, "picture"):
+            return widget.picture(width, height)
+        widget.resize(width, height)
+        return widget.grab().toImage()
+
+    def save_picture(self, path: Path, pane: str, width: int, height: int) -> None:
+        """Write the picture of a pane; :class:`OutputError` where that fails."""
+        if not 16 <= width <= 16384 or not 16 <= height <= 16384:
+            raise UsageError(f"A picture has 16 to 16384 pixels a side (asked: {width} x {height}).")
+        from floorplan_core.files import output_file
+
+        with output_file(path) as staging:
+            if not self.picture(pane, width, height).save(str(staging), _picture_format(path)):
+                raise OutputError(f"Cannot write the picture {path.name}.")
+        self.tell(_tr("Wrote {name}.").format(name=path.name))
+
+    def copy_picture(self, pane: str) -> None:
+        """The picture of a pane into the clipboard."""
+        QGuiApplication.clipboard().setImage(self.picture(pane, 1600, 1200))
+        self.tell(_tr("The picture is in the clipboard."))
+
+    def tell(self, text: str, kind: str = "info") -> None:
+        """A sentence to the user, gone after a while; errors stay until they are clicked."""
+        self.toast.tell(text, kind)
+
+    # ---- what happens -----------------------------------------------------------------------------------
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        from floorcast_app.actions.file_actions import may_leave
+
+        if not may_leave(self.workbench):
+            event.ignore()
+            return
+        self._remember()
+        self.workbench.jobs.cancel()
+        self.workbench.jobs.wait(LAST_WAIT)
+        for dock in self.docks.values():
+            stop = getattr(dock.widget(), "shut_down", None)
+            if stop is not None:
+                stop()
+        super().closeEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self.escape()
+            return
+        super().keyPressEvent(event)
+
+    def escape(self) -> None:
+        """Esc: what runs is cancelled; else the tool is put down; else nothing is selected."""
+        if self.workbench.jobs.running:
+            self.workbench.try_run("plan.cancel")
+        elif self.workbench.tool != "select":
+            self.workbench.set_tool("select")
+        else:
+            self.workbench.selection.select(None)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        for url in event.mimeData().urls()[:1]:
+            self.workbench.try_run("file.open", path=url.toLocalFile())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.empty.cover(self)
+
+    # ---- inside -----------------------------------------------------------------------------------------
+
+    def _survey_changed(self) -> None:
+        nothing = self.workbench.state.survey is None
+        self.empty.setVisible(nothing)
+        if nothing:
+            self.empty.cover(self)
+            self.empty.raise_()
+        self._fitted = False
+
+    def _plan_changed(self, plan: object) -> None:
+        if plan is not None and not self._fitted:
+            self._fitted = True
+            QTimer.singleShot(0, lambda: self.workbench.plan is not None and self.workbench.run("view.fit"))
+
+    def _look_changed(self, before: Look, after: Look) -> None:
+        if before.theme != after.theme:
+            app = QApplication.instance()
+            assert isinstance(app, QApplication)
+            theme.apply_theme(app, after.theme)
+            self.actions_by_id.retint()
+        if before.workspace != after.workspace:
+            self._settings.setValue(f"workspace/{before.workspace}", self.saveState())
+            self._arrange(after.workspace)
+
+    def _arrange(self, workspace: str) -> None:
+        kept = self._settings.value(f"workspace/{workspace}")
+        if not (isinstance(kept, QByteArray) and self.restoreState(kept)):
+            arrange(self, self.docks, workspace)
+
+    def _retitle(self) -> None:
+        survey, project = self.workbench.state.survey, self.workbench.project
+        name = project.name if project else survey.path.name if survey else ""
+        self.setWindowTitle(f"{name}[*] – Floorcast" if name else "Floorcast[*]")
+        self.setWindowModified(self.workbench.has_edits)
+
+    def _dock(self, id: str, title: str, widget: QWidget) -> QDockWidget:
+        dock = QDockWidget(_tr(title), self)
+        dock.setObjectName(id)
+        dock.setWidget(widget)
+        return dock
+
+    def _fill_menus(self) -> None:
+        menus = {menu: self.menuBar().addMenu(_tr(MENU_TITLES[menu])) for menu in MENUS}
+        for action in self.workbench.actions:
+            menu = action.id.partition(".")[0]
+            if action.id not in NOT_IN_MENUS:
+                menus[menu].addAction(self.actions_by_id[action.id])
+            if action.id == "file.open_folder":
+                menus[menu].addMenu(self._recent_menu())
+        menus["view"].addSeparator()
+        panes = menus["view"].addMenu(_tr("Panes"))
+        for dock in self.docks.values():
+            panes.addAction(dock.toggleViewAction())
+
+    def _recent_menu(self) -> QMenu:
+        menu = QMenu(_tr("Open recent"), self)
+
+        def fill() -> None:
+            menu.clear()
+            for path in self.recent.paths():
+                menu.addAction(str(path), lambda p=path: self.workbench.try_run("file.open", path=p))
+            menu.setDisabled(False)
+
+        menu.aboutToShow.connect(fill)
+        return menu
+
+    def _fill_toolbar(self) -> None:
+        bar = QToolBar(_tr("Toolbar"), self)
+        bar.setObjectName("toolbar")
+        bar.setMovable(False)
+        bar.setIconSize(QSize(20, 20))
+        for id in TOOLBAR:
+            if id == "|":
+                bar.addSeparator()
+            else:
+                bar.addAction(self.actions_by_id[id])
+        self.addToolBar(bar)
+
+    def _north(self) -> "QTabWidget.TabPosition":  # noqa: F821, UP037
+        from PySide6.QtWidgets import QTabWidget
+
+        return QTabWidget.TabPosition.North
+
+    def _window_picture(self, width: int, height: int) -> QImage:
+        size = self.size()
+        self.resize(width, height)
+        QApplication.processEvents()
+        image = self.grab().toImage()
+        self.resize(size)
+        return image
+
+    def _restore(self) -> None:
+        geometry = self._settings.value("window/geometry")
+        if isinstance(geometry, QByteArray):
+            self.restoreGeometry(geometry)
+        look = self.workbench.view.look
+        self.workbench.view.set(
+            theme=str(self._settings.value("look/theme", look.theme)),
+            units=str(self._settings.value("look/units", look.units)),
+        )
+        self._arrange(self.workbench.view.look.workspace)
+
+    def _remember(self) -> None:
+        look = self.workbench.view.look
+        self._settings.setValue("window/geometry", self.saveGeometry())
+        self._settings.setValue(f"workspace/{look.workspace}", self.saveState())
+        self._settings.setValue("look/theme", look.theme)
+        self._settings.setValue("look/units", look.units)
+
+    def zoom_to(self, item: Item) -> None:
+        """Bring an item into view in all panes."""
+        self.workbench.selection.zoom_asked.emit(item)
+
+
+def _picture_format(path: Path) -> str:
+    suffix = path.suffix.lower().lstrip(".")
+    if suffix not in ("png", "jpg", "jpeg", "bmp", "webp"):
+        raise UsageError(f"Pictures are written as .png, .jpg or .webp (asked: {path.name}).")
+    return suffix.upper()

@@ -1,0 +1,90 @@
+"""What actions ask of a person and tell them, with Qt's dialogs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QMessageBox
+
+from floorplan_core.errors import UsageError
+
+if TYPE_CHECKING:
+    from floorcast_app.main_window import MainWindow
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("Interface", text)
+
+
+class QtInterface:
+    """Dialogs above the main window."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self._shows: dict[str, Callable[..., Any]] = {
+            "picture": window.save_picture,
+            "copy_picture": window.copy_picture,
+            "quit": window.close,
+        }
+
+    def ask_open(self, title: str, filters: str) -> Path | None:
+        if filters == "folder":
+            chosen = QFileDialog.getExistingDirectory(self._window, _tr(title))
+        else:
+            chosen, _ = QFileDialog.getOpenFileName(self._window, _tr(title), "", open_filters())
+        return Path(chosen) if chosen else None
+
+    def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
+        patterns = export_filters() if filters == "export" else filters
+        chosen, _ = QFileDialog.getSaveFileName(self._window, _tr(title), suggested, patterns)
+        return Path(chosen) if chosen else None
+
+    def ask_text(self, title: str, label: str, text: str) -> str | None:
+        answer, good = QInputDialog.getText(self._window, _tr(title), _tr(label), text=text)
+        return answer if good else None
+
+    def ask_yes(self, text: str, detail: str) -> bool:
+        if self._window.unattended:
+            return True
+        box = QMessageBox(self._window)
+        box.setText(_tr(text))
+        box.setInformativeText(_tr(detail))
+        box.setStandardButtons(QMessageBox.StandardButton.Discard | QMessageBox.StandardButton.Cancel)
+        box.setDefaultButton(QMessageBox.StandardButton.Cancel)
+        return bool(box.exec() == QMessageBox.StandardButton.Discard)
+
+    def tell(self, text: str, kind: str = "info") -> None:
+        self._window.tell(text, kind)
+
+    def show(self, what: str, **arguments: Any) -> Any:
+        """A picture, the end, or the dialog ``floorcast_app.dialogs.<what>`` (its function ``show``)."""
+        if what in self._shows:
+            return self._shows[what](**arguments)
+        try:
+            module = import_module(f"floorcast_app.dialogs.{what}")
+        except ModuleNotFoundError as error:
+            raise UsageError(f"There is no dialog {what!r}.") from error
+        return module.show(self._window, **arguments)
+
+
+def open_filters() -> str:
+    """Everything that the readers know, as a file dialog has it."""
+    from floorplan_core.plugins import default_registry
+
+    suffixes = {s for reader in default_registry().readers for s in reader.suffixes}
+    suffixes |= {".floorcast", ".png", ".pgm", ".yaml"}
+    patterns = " ".join(f"*{s}" for s in sorted(suffixes))
+    return f"{_tr('Surveys and projects')} ({patterns});;{_tr('All files')} (*)"
+
+
+def export_filters() -> str:
+    """Everything that the exporters write."""
+    from floorplan_core.plugins import default_registry
+
+    return ";;".join(
+        f"{e.name} ({' '.join(f'*{s}' for s in e.suffixes)})" for e in default_registry().exporters
+    )

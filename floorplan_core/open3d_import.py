@@ -1,0 +1,34 @@
+"""Open3D, imported late and without the web plotting that it would bring along.
+
+``import open3d`` takes seconds, and loads dash and plotly only to draw in notebooks. A stub in their place
+halves the time, and lets the frozen program do without both.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import Any
+
+_PLOTS = "open3d.visualization.draw_plotly"
+_NAMES = ("get_plotly_fig", "draw_plotly", "draw_plotly_server")
+
+
+def load_open3d() -> Any:
+    """The module ``open3d``."""
+    if "open3d" not in sys.modules and _PLOTS not in sys.modules:
+        sys.modules[_PLOTS] = _stub()
+    import open3d
+
+    return open3d
+
+
+def _stub() -> ModuleType:
+    stub = ModuleType(_PLOTS, "Left out: floorplan_core.open3d_import.")
+    for name in _NAMES:
+        setattr(stub, name, _left_out)
+    return stub
+
+
+def _left_out(*_: object, **__: object) -> None:
+    raise NotImplementedError("plots in notebooks are left out (floorplan_core.open3d_import)")

@@ -1,0 +1,13 @@
+"""Where the frozen programs begin: ``floorcast`` is the command line, ``floorcast-desktop`` the window."""
+
+import multiprocessing
+import sys
+from pathlib import Path
+
+if __name__ == "__main__":
+    multiprocessing.freeze_support()
+    if Path(sys.argv[0]).stem == "floorcast-desktop":
+        sys.argv[1:1] = ["gui"]
+    from floorplan_core.cli.main import main
+
+    sys.exit(main())
