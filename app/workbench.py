@@ -99,6 +99,7 @@ class Workbench:
         self.log: list[dict[str, Any]] = []  # the actions that were run, for a script that does it again
         self.timeline: list[Snapshot] = []  # of a replayed run
         self.timeline_changed = Event()  # ()
+        self.setting_asked = Event()  # (name) show "stage.field" in the settings form
         self.document.changed.connect(self._document_changed)
         self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
         self.jobs.ended.connect(self._job_ended)
