@@ -1,0 +1,194 @@
+"""The points as the 3D pane draws them: in the scene's frame, with a colour each. No Qt."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorcast_app.point_store import Points
+from floorcast_app.rendering import kernels, ramps
+from floorcast_app.theme import colours as theme_colours
+from floorplan_core.model import Facing, FloorPlan
+
+Float = NDArray[np.float64]
+Floats = NDArray[np.float32]
+Colours = NDArray[np.uint32]
+
+BLOCK = 1 << 20  # points at a time: no step holds the interpreter long
+PLANE_CELL = 0.04  # metres: raster in which points find their plane
+PLANE_REACH = 0.10  # metres from a plane up to which a point belongs to it
+FLOOR_SKIN, CEILING_SKIN = 0.08, 0.08  # metres: what lies so near to floor or ceiling belongs to no wall
+TYPICAL_HEIGHT = 2.6  # metres, where no ceiling was seen
+_SAMPLE = 20_000  # points from which spacing and heights are told
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points in shuffled order: any prefix is a fair picture. All arrays share their first axis."""
+
+    xyz: Floats  # (N, 3) metres, scene frame
+    rgb: NDArray[np.uint8] | None = None  # (N, 3)
+    intensity: Floats | None = None  # (N,) 0 to 1
+    density: float = 1.0  # points for each m2 of surface
+    low: float = 0.0  # metres: between these lie nearly all points
+    high: float = 2.6
+
+    def __len__(self) -> int:
+        return len(self.xyz)
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of nearly all points, metres."""
+        low, high = np.quantile(self.xyz[:_SAMPLE, :2], (0.005, 0.995), axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    def spacing(self, count: int) -> float:
+        """Metres between neighbours when only the first ``count`` points are drawn."""
+        return 1.0 / math.sqrt(max(self.density * count / max(len(self), 1), 1e-6))
+
+
+@dataclass(frozen=True)
+class Paint:
+    """A colour for each point, and what the pane says about it."""
+
+    colours: Colours  # (N,) 0xRRGGBB
+    note: str = ""  # "rgb" or "intensity" where the survey has none and height is shown instead
+    heights: tuple[float, float] | None = None  # metres at both ends of the ramp, where heights are shown
+
+
+def scene_matrix(plan: FloorPlan | None, floor: float = 0.0) -> Float:
+    """(3, 4) local frame to scene; before there is a plan only ``floor`` (metres, local) is subtracted."""
+    rotation = np.eye(3) if plan is None else plan.frame.rotation
+    level = floor if plan is None else plan.frame.floor_z
+    return np.column_stack([rotation, [0.0, 0.0, -level]])
+
+
+def make_cloud(points: Points, matrix: Float) -> Cloud:
+    """Move the points into the scene and find out how dense they are."""
+    xyz = np.empty_like(points.xyz, dtype=np.float32)
+    turn, shift = matrix[:, :3].T.astype(np.float32), matrix[:, 3].astype(np.float32)
+    for at in range(0, len(xyz), BLOCK):
+        np.matmul(points.xyz[at : at + BLOCK], turn, out=xyz[at : at + BLOCK])
+        xyz[at : at + BLOCK] += shift
+    if not len(xyz):
+        return Cloud(xyz)
+    low, high = np.quantile(xyz[:_SAMPLE, 2], (0.01, 0.99))
+    return Cloud(xyz, points.rgb, points.intensity, _density(xyz), float(low), float(max(high, low + 0.1)))
+
+
+def lowest_level(xyz: Floats) -> float:
+    """Metres: the height of the floor, guessed before any plan: nearly all points lie above it."""
+    return float(np.quantile(xyz[:_SAMPLE, 2], 0.02)) if len(xyz) else 0.0
+
+
+def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str, cut: float | None = None) -> Paint:
+    """Colour the points by one of ``POINT_COLOURS``; by height where the survey does not hold it."""
+    if by == "rgb" and cloud.rgb is not None:
+        return Paint(_in_blocks(cloud, lambda rows: ramps.pack(cloud.rgb[rows])))
+    if by == "intensity" and cloud.intensity is not None:
+        ramp = ramps.grey_ramp(theme)
+        return Paint(_in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.intensity[rows], 0.0, 1.0)]))
+    if by in ("facing", "plane") and plan is not None:
+        return Paint(_by_plane(cloud, by, plan, theme))
+    return _by_height(cloud, plan, theme, cut, by if by != "height" else "")
+
+
+def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, cut: float | None, note: str) -> Paint:
+    low, high = (cloud.low, cloud.high) if plan is None else (0.0, storey_height(plan))
+    if cut is not None:
+        high = max(min(high, cut), low + 0.1)
+    ramp = ramps.height_ramp(theme)
+    colours = _in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.xyz[rows, 2], low, high)])
+    return Paint(colours, note, (low, high))
+
+
+def _by_plane(cloud: Cloud, by: str, plan: FloorPlan, theme: str) -> Colours:
+    """Points near a plane have its colour; the others stay grey."""
+    holds = theme_colours(theme)
+    table = facing_colours(theme) if by == "facing" else ramps.plane_colours(len(plan.planes), theme)
+    rows = [p.facing for p in plan.planes] if by == "facing" else list(range(len(plan.planes)))
+    grey = ramps.packed(holds.predicted)
+    table = np.append(table[np.array(rows, dtype=np.int64)], np.uint32(grey))  # row -1: no plane
+    cells, origin = plane_raster(plan)
+    number = np.empty(len(cloud), dtype=np.int16)
+    high = storey_height(plan) - CEILING_SKIN
+    kernels.nearest_planes(cloud.xyz, cells, origin, PLANE_CELL, FLOOR_SKIN, high, number)
+    return _in_blocks(cloud, lambda rows: table[number[rows]])
+
+
+def facing_colours(theme: str) -> Colours:
+    """(4,) a colour for each :class:`Facing`: the paper's red and green, each light and dark."""
+    holds = theme_colours(theme)
+    made = {
+        Facing.EAST: ramps.shifted(holds.plane_ew, 0.06),
+        Facing.WEST: ramps.shifted(holds.plane_ew, -0.10),
+        Facing.NORTH: ramps.shifted(holds.plane_ns, 0.08),
+        Facing.SOUTH: ramps.shifted(holds.plane_ns, -0.10),
+    }
+    return np.array([made[facing] for facing in Facing], dtype=np.uint32)
+
+
+def storey_height(plan: FloorPlan) -> float:
+    """Metres from floor to ceiling."""
+    ceiling = plan.frame.ceiling_z
+    return TYPICAL_HEIGHT if ceiling is None else float(ceiling - plan.frame.floor_z)
+
+
+def plane_raster(plan: FloorPlan) -> tuple[NDArray[np.int16], Float]:
+    """((ny, nx) number of the nearest plane within reach of each cell, -1 where none; origin (2,) metres).
+
+    Ties go to the plane that comes first.
+    """
+    boxes = [(n, p, run) for n, p in enumerate(plan.planes) for run in _runs(p)]
+    if not boxes:
+        return np.full((1, 1), -1, dtype=np.int16), np.zeros(2)
+    rects = np.array([_strip(p, run) for _, p, run in boxes])
+    origin = rects[:, :2].min(axis=0) - PLANE_CELL
+    nx, ny = (np.ceil((rects[:, 2:].max(axis=0) - origin) / PLANE_CELL).astype(int) + 1).tolist()
+    cells = np.full((ny, nx), -1, dtype=np.int16)
+    nearest = np.full((ny, nx), np.inf, dtype=np.float32)
+    index = np.clip(np.round((rects - np.tile(origin, 2)) / PLANE_CELL).astype(int), 0, None)
+    for (number, plane, _), (x0, y0, x1, y1) in zip(boxes, index.tolist(), strict=True):
+        axis = plane.facing.axis
+        first, last = (x0, x1) if axis == 0 else (y0, y1)
+        away = np.abs(origin[axis] + (np.arange(first, last) + 0.5) * PLANE_CELL - plane.offset)
+        away = away[None, :] if axis == 0 else away[:, None]
+        window = (slice(y0, y1), slice(x0, x1))
+        closer = away < nearest[window]
+        nearest[window] = np.where(closer, away, nearest[window])
+        cells[window] = np.where(closer, number, cells[window])
+    return cells, origin
+
+
+def _runs(plane: object) -> Float:
+    """(K, 2) metres along the plane where it is wall."""
+    walls = plane.walls if len(plane.walls) else plane.observed  # type: ignore[attr-defined]
+    return np.asarray(walls, dtype=np.float64)
+
+
+def _strip(plane: object, run: Float) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 within reach of a run of a plane."""
+    near, far = plane.offset - PLANE_REACH, plane.offset + PLANE_REACH  # type: ignore[attr-defined]
+    along = (near, run[0], far, run[1])
+    return along if plane.facing.axis == 0 else (run[0], near, run[1], far)  # type: ignore[attr-defined]
+
+
+def _in_blocks(cloud: Cloud, colour: object) -> Colours:
+    out = np.empty(len(cloud), dtype=np.uint32)
+    for at in range(0, len(cloud), BLOCK):
+        out[at : at + BLOCK] = colour(slice(at, at + BLOCK))  # type: ignore[operator]
+    return out
+
+
+def _density(xyz: Floats) -> float:
+    """Points for each m2 of surface: neighbours of a random pattern lie half of 1 / sqrt(density) apart."""
+    from scipy.spatial import cKDTree
+
+    sample = xyz[:_SAMPLE]
+    if len(sample) < 2:
+        return 1.0
+    apart = float(np.median(cKDTree(sample).query(sample, k=2)[0][:, 1]))
+    return 0.25 / max(apart, 1e-3) ** 2 * len(xyz) / len(sample)
