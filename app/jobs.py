@@ -68,14 +68,10 @@ class Jobs:
         self.warned = Event()  # (text)
         self.ended = Event()  # (error: Exception | None); Cancelled where the user gave up
         self._post = post
-        self._thread: threading.Thread | None = None
+        self._thread: threading.Thread | None = None  # the last one, even when it was cancelled
+        self.running = False  # True while a job runs that was not cancelled
         self._cancel = CancelToken()
         self._serial = 0
-
-    @property
-    def running(self) -> bool:
-        """True while a job runs."""
-        return self._thread is not None
 
     def start(self, text: str, work: Callable[[Observer], Any], done: Callable[[Any], None]) -> None:
         """Run ``work(observer)`` in a thread, then ``done(result)`` in the main thread."""
@@ -87,6 +83,7 @@ class Jobs:
         self._thread = threading.Thread(
             target=self._run, args=(previous, work, observer, done, self._serial), daemon=True
         )
+        self.running = True
         self.started.emit(text)
         self._thread.start()
 
@@ -139,7 +136,7 @@ class Jobs:
     def _end(self, serial: int, error: Exception | None, then: Callable[[], None] | None = None) -> None:
         if serial != self._serial or not self.running:
             return
-        self._thread = None
+        self.running = False
         if then is not None:
             then()
         self.ended.emit(error)

@@ -67,8 +67,6 @@ def make_application():  # type: ignore[no-untyped-def]
 
 def make_window(unattended: bool = False):  # type: ignore[no-untyped-def]
     """The main window with an empty document; an unattended one neither asks nor remembers anything."""
-    from PySide6.QtCore import QSettings
-
     from floorcast_app.main_window import MainWindow
     from floorcast_app.qt_post import QtPost
     from floorcast_app.workbench import Workbench
@@ -77,7 +75,6 @@ def make_window(unattended: bool = False):  # type: ignore[no-untyped-def]
     workbench = Workbench(post)
     window = MainWindow(workbench, _settings(unattended), unattended)
     post.setParent(window)
-    assert isinstance(QSettings(), QSettings)
     return window
 
 

@@ -60,13 +60,9 @@ class ScriptedApplication:
         canvas = self.window.pane(pane)
         if not hasattr(canvas, "pixel_of"):
             raise UsageError(f"Nothing can be clicked by coordinates in the pane {pane!r}.")
-        QTest.mouseMove(canvas.viewport(), canvas.pixel_of(x, y))
-        QTest.mouseClick(
-            canvas.viewport(),
-            Qt.MouseButton.LeftButton,
-            Qt.KeyboardModifier.NoModifier,
-            canvas.pixel_of(x, y),
-        )
+        where = canvas.pixel_of(x, y)
+        QTest.mouseMove(canvas.viewport(), where)
+        QTest.mouseClick(canvas.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, where)
         self.wait()
 
     def _ended(self, error: Exception | None) -> None:
