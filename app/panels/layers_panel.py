@@ -135,7 +135,7 @@ class LayersPanel(Panel):
         box.addItems([tr(COLOUR_TEXTS[c]) for c in POINT_COLOURS])
         box.setToolTip(tr("What the points are coloured by"))
         box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        box.setMinimumContentsLength(6)
+        box.setMinimumContentsLength(5)
         box.activated.connect(lambda i: self.workbench.try_run(f"view.colour_{POINT_COLOURS[i]}"))
         return box
 

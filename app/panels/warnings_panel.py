@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QDockWidget, QLabel, QListWidget, QListWidgetItem, QWidget
 
@@ -19,6 +19,8 @@ class WarningsPanel(Panel):
         super().__init__(workbench, parent)
         self.list = QListWidget()
         self.list.setWordWrap(True)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setResizeMode(QListWidget.ResizeMode.Adjust)
         self.list.setIconSize(QSize(16, 16))
         self.nothing: QLabel = label(tr("Nothing to warn of."), "muted")
         self.nothing.setContentsMargins(2 * GRID, 2 * GRID, 0, 0)

@@ -1,0 +1,187 @@
+"""Regions, doors and planes as lists: sorted, filtered, with eyes, locks, pins, and the shared selection."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPoint, QSize, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QLineEdit, QTableView, QTabWidget, QWidget
+
+from floorcast_app import icons, theme
+from floorcast_app.panels.base import GRID, Panel, column, listener_of, row
+from floorcast_app.panels.by_hand import is_locked
+from floorcast_app.panels.item_menu import item_menu
+from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, LOCKABLE, OWN, ItemFilter, ItemModel
+from floorcast_app.selection import Item
+from floorcast_app.translation import tr
+from floorcast_app.view_state import Look
+from floorcast_app.workbench import Workbench
+
+TABS = {"region": "Regions", "door": "Doors", "plane": "Planes"}
+ROW_HEIGHT = 28  # px
+MARK_WIDTH = 30  # px of the columns with an eye and a lock
+LOCK_ACTIONS = {"plane": "correct.keep_plane", "door": "correct.accept_door"}
+
+
+class ItemTable(QTableView):
+    """The list of one kind."""
+
+    def __init__(self, workbench: Workbench, kind: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.kind, self._workbench = kind, workbench
+        self.rows = ItemModel(workbench, kind, self)
+        self.filter = ItemFilter(self)
+        self.filter.setSourceModel(self.rows)
+        self.setModel(self.filter)
+        self._dress()
+        self.sortByColumn(OWN, Qt.SortOrder.AscendingOrder)
+        self.clicked.connect(self._clicked)
+        self.doubleClicked.connect(lambda i: workbench.selection.zoom_asked.emit(i.data(ITEM_ROLE)))
+        self.customContextMenuRequested.connect(self._menu)
+        self._following = False
+        self.selectionModel().selectionChanged.connect(self._picked)
+
+    def follow(self) -> None:
+        """Show the workbench's selection."""
+        model = self.selectionModel()
+        flags = QItemSelectionModel.SelectionFlag
+        self._following = True
+        model.clearSelection()
+        for item in self._workbench.selection.items:
+            at = self._index_of(item)
+            if at.isValid():
+                model.select(at, flags.Select | flags.Rows)
+                model.setCurrentIndex(at, flags.NoUpdate)
+                self.scrollTo(at)
+        self._following = False
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._workbench.selection.hover(self.indexAt(event.position().toPoint()).data(ITEM_ROLE))
+        super().mouseMoveEvent(event)
+
+    def leaveEvent(self, event: object) -> None:
+        self._workbench.selection.hover(None)
+        super().leaveEvent(event)  # type: ignore[arg-type]
+
+    # ---- inside -----------------------------------------------------------------------------------------
+
+    def _dress(self) -> None:
+        self.setSortingEnabled(True)
+        self.setAlternatingRowColors(True)
+        self.setShowGrid(False)
+        self.setMouseTracking(True)
+        self.setWordWrap(False)
+        self.setIconSize(QSize(16, 16))
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(ROW_HEIGHT)
+        header = self.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setMinimumSectionSize(MARK_WIDTH)
+        header.setStretchLastSection(not self.rows.columns[-1].number)
+        for mark in (EYE, LOCK):
+            header.setSectionResizeMode(mark, QHeaderView.ResizeMode.Fixed)
+            header.resizeSection(mark, MARK_WIDTH)
+        self.setColumnHidden(LOCK, self.kind not in LOCKABLE)
+
+    def _index_of(self, item: Item) -> QModelIndex:
+        at = self.rows.row_of(item)
+        return self.filter.mapFromSource(self.rows.index(at, OWN)) if at >= 0 else QModelIndex()
+
+    def _picked(self) -> None:
+        """Rows were selected by mouse or keys: the whole application follows."""
+        if self._following:
+            return
+        chosen = [i.data(ITEM_ROLE) for i in self.selectionModel().selectedRows(OWN)]
+        current = self.currentIndex().data(ITEM_ROLE)
+        chosen.sort(key=lambda item: item == current)  # the one clicked last leads
+        selection = self._workbench.selection
+        self._following = True
+        selection.select(None if not chosen else chosen[0])
+        for item in chosen[1:]:
+            selection.select(item, add=True)
+        self._following = False
+
+    def _clicked(self, index: QModelIndex) -> None:
+        item = index.data(ITEM_ROLE)
+        if index.column() == EYE:
+            view = self._workbench.view
+            view.set(hidden=view.look.hidden ^ {(item.kind, item.id)})
+        elif index.column() == LOCK and self.kind in LOCKABLE:
+            self._lock(item)
+
+    def _lock(self, item: Item) -> None:
+        locked = is_locked(self._workbench.find(item))
+        action = "correct.release" if locked else LOCK_ACTIONS[item.kind]
+        self._workbench.try_run(action, **({"item": item} if locked else {item.kind: item.id}))
+
+    def _menu(self, at: QPoint) -> None:
+        item = self.indexAt(at).data(ITEM_ROLE)
+        if item is not None:
+            if item not in self._workbench.selection.items:
+                self._workbench.selection.select(item)
+            item_menu(self._workbench, item, self).popup(self.viewport().mapToGlobal(at))
+
+
+class ItemsPanel(Panel):
+    """The three lists in tabs, with one filter."""
+
+    def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
+        super().__init__(workbench, parent)
+        self.tabs = QTabWidget()
+        self.tables = {kind: ItemTable(workbench, kind) for kind in TABS}
+        for kind, table in self.tables.items():
+            self.tabs.addTab(table, tr(TABS[kind]))
+        self.search = QLineEdit()
+        self.search.setPlaceholderText(tr("Filter"))
+        self.search.setClearButtonEnabled(True)
+        self.search.setMaximumWidth(200)
+        self.search.addAction(
+            icons.icon("search", theme.colours().faint), QLineEdit.ActionPosition.LeadingPosition
+        )
+        self.search.textChanged.connect(self._filter)
+        corner = QWidget()
+        line = row(self.search)
+        line.setContentsMargins(0, 2, GRID, 2)
+        corner.setLayout(line)
+        self.tabs.setCornerWidget(corner)
+        self.tabs.setDocumentMode(True)
+        column(self, 0, 0).addWidget(self.tabs)
+        self.listen(workbench.plan_changed)
+        self.listen(workbench.selection.changed, then=self._follow)
+        self.listen(workbench.view.changed, then=self._look_changed)
+        theme.changed.connect(listener_of(self, self.refresh_soon, theme.changed))
+        self.refresh()
+
+    def refresh(self) -> None:
+        for at, (kind, table) in enumerate(self.tables.items()):
+            table.rows.reload()
+            table.resizeColumnsToContents()
+            for mark in (EYE, LOCK):
+                table.horizontalHeader().resizeSection(mark, MARK_WIDTH)
+            count = table.rows.rowCount()
+            self.tabs.setTabText(at, f"{tr(TABS[kind])} {count}" if count else tr(TABS[kind]))
+            table.follow()
+
+    def _follow(self) -> None:
+        item = self.workbench.selection.item
+        if any(table._following for table in self.tables.values()):
+            return  # it came from here
+        if item is not None and item.kind in self.tables:
+            self.tabs.setCurrentWidget(self.tables[item.kind])
+        for table in self.tables.values():
+            table.follow()
+
+    def _filter(self, text: str) -> None:
+        for table in self.tables.values():
+            table.filter.set_text(text)
+            table.follow()
+
+    def _look_changed(self, before: Look, after: Look) -> None:
+        if before.units != after.units:
+            self.refresh_soon()
+        elif before.hidden != after.hidden:
+            for table in self.tables.values():
+                table.rows.repaint_marks()
