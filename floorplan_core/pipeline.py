@@ -2,15 +2,15 @@
 
 integrate   points into surfels, rays into the voxel map       O(points of the scan)
 plan        frame and storey, voxel columns, segments, planes, doors, universe, candidates, cover, regions,
-            labels
+            labels; what a person said against the machine is applied after the stage that it concerns
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from floorplan_core.errors import NoPlanError, UsageError
 from floorplan_core.model import (
     Door,
     FloorPlan,
+    LayoutPlane,
     LocalFrame,
     ManhattanFrame,
     OccupancyGrid,
@@ -29,18 +30,23 @@ from floorplan_core.model import (
     Region,
     Trajectory,
 )
+from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
 from floorplan_core.stages.candidates import pair_planes
+from floorplan_core.stages.corrections import Remarks, in_plan
+from floorplan_core.stages.corrections_doors import correct_doors, follow_planes
+from floorplan_core.stages.corrections_regions import Surroundings, correct_names, correct_shapes
+from floorplan_core.stages.corrections_walls import correct_walls, still_walls
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
-from floorplan_core.stages.region_names import keep_names, next_number
+from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
@@ -53,38 +59,15 @@ from floorplan_core.stages.storeys import (
 )
 from floorplan_core.stages.voxel_columns import gather_evidence
 from floorplan_core.stages.wall_points import thin_wall_points
+from floorplan_core.steps import StageRunner, StepMemory
 from floorplan_core.survey_map import SurveyMap
 
 if TYPE_CHECKING:
     from floorplan_core.plugins import RegionClassifier
 
 Float = NDArray[np.float64]
-T = TypeVar("T")
-
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
 LEFT_OUT = 1.0  # m2 of free space in no region, from which the user is told
-
-
-class StageRunner:
-    """Runs stage after stage: progress, wall time, cancellation, and what an earlier run made already."""
-
-    def __init__(self, observer: Observer, given: Sequence[object], integrating: float) -> None:
-        self.seconds = {"integrate": integrating}
-        self._observer = observer
-        self._given = iter(given)
-
-    def __call__(self, name: str, work: Callable[[], T]) -> T:
-        """The result of ``work``, or the next of the given results; the time is added to stage ``name``."""
-        self._observer.check_cancelled()
-        if (known := next(self._given, None)) is not None:
-            return cast(T, known)
-        self._observer.stage_started(name)
-        began = time.perf_counter()
-        result = work()
-        took = time.perf_counter() - began
-        self.seconds[name] = self.seconds.get(name, 0.0) + took
-        self._observer.stage_finished(name, took, result)
-        return result
 
 
 class FloorPlanner:
@@ -102,9 +85,9 @@ class FloorPlanner:
         self.source = source
         self.local_frame = local_frame or LocalFrame()
         self.map = SurveyMap(self.config)
-        self._names: dict[int, tuple[Region, ...]] = {}  # of each storey's plan before
-        self._unused: dict[int, int] = {}  # the lowest number that no region of a storey ever had
-        self._found: tuple[int, ManhattanFrame, tuple[Storey, ...]] | None = None  # after so many points
+        self.names: RegionNames = NamesOfRun()  # what the regions were called in the plans before
+        # After so many points, with these settings:
+        self._found: tuple[tuple[object, ...], ManhattanFrame, tuple[Storey, ...]] | None = None
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
         """Add one scan.
@@ -125,46 +108,90 @@ class FloorPlanner:
         """
         return self._frame_and_storeys()[1]
 
-    def plan(self, given: Sequence[object] = (), storey: int = 0) -> FloorPlan:
+    def plan(
+        self,
+        given: Sequence[object] = (),
+        storey: int = 0,
+        corrections: Sequence[Correction] = (),
+        memory: StepMemory | None = None,
+    ) -> FloorPlan:
         """The floor plan of all that was integrated so far; raises :class:`NoPlanError` where there is none.
 
         :param given: results of the first stages of an earlier run, in their order; they are taken as they
             are (:mod:`floorplan_core.restart`).
         :param storey: number of the storey, 0 for the lowest; :class:`UsageError` where it is not there.
+        :param corrections: what a person said against the machine, in the order in which it was said.
+        :param memory: what an earlier plan of the same points and storey made; only steps that depend on
+            something else are run again.
         """
         self.map.settle()
-        config, stage = self.config, StageRunner(self.observer, given, self.map.seconds)
+        config, integrating = self.config, {"integrate": self.map.seconds}
+        stage = StageRunner(self.observer, given, integrating, memory)
 
-        frame = stage("frame", lambda: self._frame_of(storey))
-        evidence = stage("occupancy", lambda: self._evidence_of(storey, frame))
-        segments, rows = stage("segments", lambda: find_segments(evidence, config.segments))
+        frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
+        evidence = stage("occupancy", lambda: self._evidence_of(storey, frame), frame, config.voxels)
+        say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
+        segments, rows = stage(
+            "segments", lambda: find_segments(evidence, config.segments), evidence, config.segments
+        )
+        parts, beams = config.planes, (config.doors.max_beamless, config.doors.lintel_depth)
         segments, planes = stage(
-            "planes", lambda: find_planes(segments, rows, evidence, config.planes, config.doors)
-        )
-        planes = stage(
             "planes",
-            lambda: close_corners(remove_beams(planes, config.doors.max_beamless, config.doors.lintel_depth)),
+            lambda: find_planes(segments, rows, evidence, parts, config.doors),
+            *(segments, rows, evidence, parts, config.doors),
         )
-        planes = stage("planes", lambda: mark_recesses(planes, config.planes))
-        doors = stage("doors", lambda: find_doors(planes, evidence, config.doors))
-        grid = stage("occupancy", lambda: slice_map(evidence, planes, doors, config.occupancy))
-        walls, paired = blockers(planes, doors), pairable(planes, config.planes)
+        planes = stage("planes", lambda: close_corners(remove_beams(planes, *beams)), planes, beams)
+        machine = stage("planes", lambda: mark_recesses(planes, parts), planes, parts)
+        planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
+
+        seen = still_walls(machine, planes)
+        doors = stage("doors", lambda: find_doors(seen, evidence, config.doors), seen, evidence, config.doors)
+        doors, planes, remarks = stage.correct(
+            "doors",
+            lambda: self._corrected_doors(doors, planes, machine, say.doors, evidence),
+            *(doors, planes, machine, say.doors, evidence, config.doors),
+        )
+        said += remarks
+        grid = stage(
+            "occupancy",
+            lambda: slice_map(evidence, planes, doors, config.occupancy),
+            *(evidence, planes, doors, config.occupancy),
+        )
+        walls, paired = blockers(planes, doors), pairable(planes, parts)
+        layout = (planes, doors, grid, parts, config.candidates)
         candidates = stage(
-            "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, self.observer)
+            "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, self.observer), *layout
         )
-        cover = stage("cover", lambda: cover_free_space(candidates, grid, config.cover, self.observer))
-        planes, cover = stage("cover", lambda: cover_the_rest(planes, paired, walls, cover, grid, config))
+        cover = stage(
+            "cover",
+            lambda: cover_free_space(candidates, grid, config.cover, self.observer),
+            *(candidates, grid, config.cover),
+        )
+        planes, cover = stage(
+            "cover",
+            lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
+            *(cover, config.cover, *layout),
+        )
+        found = (planes, segments, doors, grid)
         regions = stage(
-            "regions", lambda: build_regions(cover, planes, segments, doors, grid, config.regions)
+            "regions",
+            lambda: build_regions(cover, *found, config.regions),
+            *(cover, *found, config.regions),
         )
-        regions, doors = stage("regions", lambda: connect_doors(regions, doors))
-        regions = stage("labels", lambda: label_regions(regions, self._classifier(), config))
-        regions, doors = self._named(regions, doors, storey)
-        points = stage("regions", lambda: thin_wall_points(evidence, segments))
+        regions, planes, remarks = stage.correct(
+            "shapes",
+            lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
+            *(regions, say.shapes, *found, config.regions),
+        )
+        said += remarks
+        regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
+        regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
+        regions, doors = self.names(self._some(regions), doors, storey)
+        regions, remarks = correct_names(regions, say.names)
+        said += remarks + self._lost(found[2], doors)
+        points = stage("regions", lambda: thin_wall_points(evidence, segments), evidence, segments)
 
         self.observer.check_cancelled()
-        self._names[storey] = regions
-        self._unused[storey] = max(self._unused.get(storey, 1), next_number(regions))
         return FloorPlan(
             frame=frame,
             local_frame=self.local_frame,
@@ -180,22 +207,41 @@ class FloorPlanner:
             source=self.source,
             point_count=int(evidence.count.sum()) if self._is_one_of_many() else self.map.surfels.points,
             config=config,
-            warnings=self._warnings(cover, grid),
+            warnings=self._warnings(cover, grid, said),
             seconds=stage.seconds,
             storey=storey,
+            corrected=by_hand(planes, doors, regions),
+            machine=dict(reversed(said.machine)),  # the first that was said of a thing
         )
+
+    def _corrected_doors(
+        self,
+        doors: tuple[Door, ...],
+        planes: tuple[LayoutPlane, ...],
+        machine: tuple[LayoutPlane, ...],
+        corrections: tuple[Correction, ...],
+        evidence: Evidence,
+    ) -> tuple[tuple[Door, ...], tuple[LayoutPlane, ...], Remarks]:
+        """The doors in the corrected planes, with what a person said of them."""
+        sure = self.config.doors
+
+        def faint() -> tuple[Door, ...]:
+            all_ = sure.model_copy(update={"min_confidence": 0.0})
+            return follow_planes(find_doors(still_walls(machine, planes), evidence, all_), machine, planes)
+
+        return correct_doors(follow_planes(doors, machine, planes), planes, corrections, sure, faint)
 
     def _frame_and_storeys(self) -> tuple[ManhattanFrame, tuple[Storey, ...]]:
         """The frame of the whole survey, and its storeys in it; found once for the points so far."""
         self.map.settle()
-        points = self.map.surfels.points
-        if self._found is None or self._found[0] != points:
+        made_of = (self.map.surfels.points, self.config.frame, self.config.storeys)
+        if self._found is None or self._found[0] != made_of:
             self._require_room()
             sample = self.map.sample()
             frame = estimate_frame(sample, self.config.frame)
             if is_tall(sample, frame, self.config.storeys):
                 sample = self.map.surfels.surfels()
-            self._found = points, frame, find_storeys(sample, frame, self.config.storeys)
+            self._found = made_of, frame, find_storeys(sample, frame, self.config.storeys)
         return self._found[1:]
 
     def _is_one_of_many(self) -> bool:
@@ -228,21 +274,31 @@ class FloorPlanner:
                 f"{seen.size:g} m; check the unit (--set input.unit=...) or give more scans."
             )
 
-    def _named(
-        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int
-    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
-        """The regions with the names that they had in the plan before; at least one there must be."""
+    def _some(self, regions: tuple[Region, ...]) -> tuple[Region, ...]:
+        """The regions; at least one there must be."""
         if not regions:
             raise NoPlanError(
                 "No region came out: the free space seen is not enclosed by any pair of walls; "
                 "scan more walls, or raise candidates.max_ratio."
             )
-        before = self._names.get(storey)
-        return keep_names(before, regions, doors, self._unused[storey]) if before else (regions, doors)
+        return regions
 
-    def _warnings(self, cover: RectangleCover, grid: OccupancyGrid) -> tuple[str, ...]:
+    @staticmethod
+    def _lost(before: tuple[Door, ...], doors: tuple[Door, ...]) -> Remarks:
+        """Doors by hand that join no two regions, and so are none."""
+        left = {d.id for d in doors}
+        gone = [d for d in before if d.by_hand and d.id not in left]
+        return Remarks(
+            warnings=tuple(
+                f"The door {d.by_hand} by hand at ({d.line().mean(axis=0)[0]:.2f}, "
+                f"{d.line().mean(axis=0)[1]:.2f}) does not lie between two regions, and is left out."
+                for d in gone
+            )
+        )
+
+    def _warnings(self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks) -> tuple[str, ...]:
         """What the user should know about this plan; told to the observer too."""
-        warnings = []
+        warnings = list(said.warnings)
         if self.map.planar:
             warnings.append(
                 "A planar scan: walls and furniture alike are taken to reach from floor to ceiling."
@@ -264,6 +320,14 @@ class FloorPlanner:
         from floorplan_core.plugins import find_classifier
 
         return find_classifier(self.config.labels.classifier)
+
+
+def by_hand(
+    planes: Sequence[LayoutPlane], doors: Sequence[Door], regions: Sequence[Region]
+) -> tuple[tuple[str, str], ...]:
+    """(kind, id) of everything that a person changed."""
+    kinds = (("plane", planes), ("door", doors), ("region", regions))
+    return tuple((kind, thing.id) for kind, things in kinds for thing in things if thing.by_hand)
 
 
 def process(

@@ -17,6 +17,7 @@ from floorplan_core.errors import UsageError
 from floorplan_core.model import GridMap, PointChunk, Reconstruction
 from floorplan_core.model.corrections import Correction
 from floorplan_core.observer import Observer
+from floorplan_core.steps import StepMemory
 
 if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan
@@ -37,6 +38,7 @@ class PlanningSession:
         self._read_with = config
         self._planner: FloorPlanner | None = None
         self._read_seconds = 0.0
+        self._memory = StepMemory()
 
     @classmethod
     def open(
@@ -80,6 +82,7 @@ class PlanningSession:
         if self.ready:
             return
         from floorplan_core.pipeline import FloorPlanner
+        from floorplan_core.stages.region_names import NamesOfSession
 
         survey = self.reconstruction
         planner = FloorPlanner(self._read_with, observer, survey.name, survey.local_frame)
@@ -94,6 +97,7 @@ class PlanningSession:
             done += len(chunk.points)
             observer.progress("read", done)
         planner.map.settle()
+        planner.names = NamesOfSession()
         self._read_seconds = time.perf_counter() - began
         observer.stage_finished("read", self._read_seconds)
         self._planner, self.ready = planner, True
@@ -111,6 +115,6 @@ class PlanningSession:
         if planner is None or not self.ready:
             raise UsageError("The survey was not read yet.")
         planner.config, planner.observer = config, observer
-        plan = planner.plan()
+        plan = planner.plan(corrections=corrections, memory=self._memory)
         plan.seconds["read"] = self._read_seconds - plan.seconds["integrate"]
         return plan

@@ -79,6 +79,13 @@ def open_polygon(polygon: Any, width: float) -> Any:
     return shapely.set_precision(grown, _EXACT)
 
 
+def close_polygon(shape: Any, width: float) -> Any:
+    """Fill the gaps in and between rectilinear polygons narrower than ``width`` (closing with a square)."""
+    grown = shapely.union_all([shape, *_borders(shape, width / 2)])
+    shrunk = shapely.difference(grown, shapely.union_all(_borders(grown, width / 2)))
+    return shapely.set_precision(shrunk, _EXACT)
+
+
 def _borders(shape: Any, reach: float) -> NDArray[np.object_]:
     """A box around each side of a polygon or several, ``reach`` beyond it in all directions."""
     rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(shape))]

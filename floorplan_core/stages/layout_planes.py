@@ -64,8 +64,15 @@ def find_planes(
 
 
 def pairable(planes: Sequence[LayoutPlane], config: PlanesConfig) -> list[LayoutPlane]:
-    """The planes that may bound a rectangle: enough was seen of them, and they are no recess of another."""
-    return [p for p in planes if p.support >= config.min_support and not p.recess]
+    """The planes that may bound a rectangle: enough was seen of them, and they are no recess of another.
+
+    What a person said of a plane comes before that.
+    """
+    return [p for p in planes if (p.by_hand or _is_wall(p, config)) and p.by_hand != "hidden"]
+
+
+def _is_wall(plane: LayoutPlane, config: PlanesConfig) -> bool:
+    return plane.support >= config.min_support and not plane.recess
 
 
 def mark_recesses(planes: Sequence[LayoutPlane], config: PlanesConfig) -> tuple[LayoutPlane, ...]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
@@ -79,3 +80,61 @@ def _overlaps(previous: Sequence[Region], regions: Sequence[Region]) -> list[tup
     shared = shapely.area(shapely.intersection(before[i], now[j]))
     enough = shared > MIN_SHARE * np.minimum(shapely.area(before[i]), shapely.area(now[j]))
     return [(int(a), int(b), float(s)) for a, b, s in zip(i[enough], j[enough], shared[enough], strict=True)]
+
+
+class RegionNames(Protocol):
+    """Gives the regions of a plan the names that they had in the plans before."""
+
+    def __call__(
+        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int
+    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+        """Regions and doors of one storey with names and ids that persist."""
+
+
+class NamesOfRun:
+    """Names from one plan of a run to the next: more is seen, nothing is taken back."""
+
+    def __init__(self) -> None:
+        self._before: dict[int, tuple[Region, ...]] = {}  # by storey
+        self._unused: dict[int, int] = {}  # the lowest number that no region of a storey ever had
+
+    def __call__(
+        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int
+    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+        """:func:`keep_names` with the plan before."""
+        before, unused = self._before.get(storey), self._unused.get(storey, 1)
+        if before:
+            regions, doors = keep_names(before, regions, doors, unused)
+        self._before[storey] = regions
+        self._unused[storey] = max(unused, next_number(regions))
+        return regions, doors
+
+
+class NamesOfSession:
+    """Names from one replan to the next, where settings and corrections are tried and taken back.
+
+    A region keeps the name of the place where it first appeared, and regions that were there before in the
+    very same shapes have the very same names: undo brings them back exactly.
+    """
+
+    def __init__(self) -> None:
+        self._first: dict[int, tuple[Region, ...]] = {}  # by storey: every name, where it first appeared
+        self._given: dict[tuple[int, bytes], tuple[tuple[str, str], ...]] = {}  # id and name of each region
+
+    def __call__(
+        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int
+    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+        """The names given to these shapes before, or else by the overlap with where names first appeared."""
+        import shapely
+
+        shapes = b"".join(shapely.to_wkb(np.array([r.polygon for r in regions], dtype=object)))
+        names = self._given.get((storey, shapes))
+        if names is None:
+            first = self._first.get(storey, ())
+            known = {r.id for r in first}
+            named = persist_names(first, regions) if first else regions
+            self._first[storey] = (*first, *(r for r in named if r.id not in known))
+            names = self._given[storey, shapes] = tuple((r.id, r.name) for r in named)
+        new_id = {r.id: ident for r, (ident, _) in zip(regions, names, strict=True)}
+        regions = tuple(replace(r, id=i, name=n) for r, (i, n) in zip(regions, names, strict=True))
+        return regions, tuple(replace(d, connects=tuple(new_id[c] for c in d.connects)) for d in doors)

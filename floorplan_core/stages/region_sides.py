@@ -17,6 +17,7 @@ Float = NDArray[np.float64]
 _THICKEST = 0.45  # m between two faces that are one wall
 _MOST, _TWO_SIGMA = 0.95, 1.96  # share of the points that a residual holds; in standard deviations
 _HALVINGS = 16  # of an interval under a metre: to a few hundredths of a millimetre
+_ON = 1e-4  # m between a side and the plane that it lies on
 _USUAL = 0.12  # m, thickness of an inner wall where no wall was seen from both sides
 
 
@@ -27,9 +28,11 @@ class WallSurfaces:
 
     def __init__(self, planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) -> None:
         self._table = {}
-        recesses = {p.id for p in planes if p.recess}  # a window's pane is not where its wall is
+        # A window's pane is not where its wall is, nor is what a person took for no wall.
+        refused = {p.id for p in planes if p.by_hand == "hidden" or (p.recess and not p.by_hand)}
+        self._by_hand = [p for p in planes if p.by_hand in ("moved", "added")]
         for facing in Facing:
-            mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in recesses]
+            mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in refused]
             data = np.array([[s.offset, s.start, s.end, s.residual] for s in mine]).reshape(-1, 4)
             self._table[facing] = (data, [s.plane for s in mine])
         self.thickness = typical_thickness(planes)
@@ -54,6 +57,8 @@ class WallSurfaces:
     def target(self, a: Float, b: Float) -> float:
         """Where a side belongs: the median of the surfaces seen along it, by length; else where it is."""
         across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
+        if self.placed(a, b):
+            return float(a[across])
         seen, _ = self.along(a, b)
         length = seen[:, 2] - seen[:, 1]
         if length.sum() < min(0.3, 0.3 * abs(a[1 - across] - b[1 - across])):
@@ -62,6 +67,17 @@ class WallSurfaces:
         middle = np.searchsorted(np.cumsum(length[order]), 0.5 * length.sum())
         near = np.abs(seen[:, 0] - seen[order[middle], 0]) < 0.03
         return float(np.average(seen[near, 0], weights=length[near]))
+
+    def placed(self, a: Float, b: Float) -> list[tuple[float, float, str]]:
+        """Start, end and plane of the walls moved or added by hand that a side lies on; [] where on none.
+
+        Such a side stays where it was put, whatever was seen near it.
+        """
+        facing, across = self.facing(a, b), 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
+        low, high = sorted((a[1 - across], b[1 - across]))
+        on = [p for p in self._by_hand if p.facing == facing and abs(p.offset - a[across]) < _ON]
+        runs = [(max(s, low), min(e, high), p.id) for p in on for s, e in p.walls]
+        return [(float(s), float(e), name) for s, e, name in runs if e > s]
 
     def _behind_other_face(self, a: Float, b: Float, across: int) -> float:
         """Where only the other face of the wall was seen, the side lies one wall's thickness behind it."""
@@ -124,7 +140,8 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
     across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
     low, high = sorted((float(a[1 - across]), float(b[1 - across])))
     seen, names = walls.along(a, b)
-    spans = [(s, e) for _, s, e, _ in seen]
+    placed = walls.placed(a, b)
+    spans = [(s, e) for _, s, e, _ in seen] + [(s, e) for s, e, _ in placed]
     for door in doors:
         if door.axis == across and abs(door.offset - a[across]) < door.thickness / 2 + walls.REACH:
             spans.append((door.start, door.end))
@@ -134,7 +151,8 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
         if e > s:
             covered += e - s
             at = e
-    plane = walls.plane(names, seen[:, 2] - seen[:, 1])
+    lengths = np.concatenate([seen[:, 2] - seen[:, 1], [e - s for s, e, _ in placed]])
+    plane = walls.plane([*names, *(name for _, _, name in placed)], lengths)
     start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
     share = round(min(1.0, covered / max(high - low, 1e-9)), 4)
     return RegionSide(start, end, plane, share, hole, _residual(seen, float(a[across])))

@@ -30,8 +30,12 @@ def cover_the_rest(
     grid: OccupancyGrid,
     config: Config,
 ) -> tuple[tuple[LayoutPlane, ...], RectangleCover]:
-    """Cover what is left with the help of speculated planes; the planes used join the others."""
-    extra = frontier_planes(cover.uncovered, grid, paired, walls)
+    """Cover what is left with the help of speculated planes; the planes used join the others.
+
+    No plane is speculated where one was switched off by hand.
+    """
+    refused = [p for p in planes if p.by_hand == "hidden"]
+    extra = frontier_planes(cover.uncovered, grid, [*paired, *refused], walls)
     if not extra:
         return planes, cover
     rest = replace(grid, universe=cover.uncovered)

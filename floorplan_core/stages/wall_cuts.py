@@ -45,12 +45,12 @@ def cut_walls(polygon: Any, walls: Float) -> Any:
 
 
 def standing_walls(planes: Sequence[LayoutPlane], min_support: float) -> Float:
-    """(W, 4) lines of the wall runs where the wall was seen to stand on the floor."""
+    """(W, 4) lines of the wall runs where the wall was seen to stand on the floor, or was added by hand."""
     lines = []
     for plane in planes:
-        if plane.profile is None or plane.support < min_support:
+        if plane.by_hand != "added" and (plane.profile is None or plane.support < min_support):
             continue
-        for start, end in _standing(plane):
+        for start, end in plane.walls if plane.by_hand == "added" else _standing(plane):
             a, b = (plane.offset, start), (plane.offset, end)
             lines.append((*a, *b) if plane.facing.axis == 0 else (*a[::-1], *b[::-1]))
     return np.array(lines, dtype=np.float64).reshape(-1, 4)

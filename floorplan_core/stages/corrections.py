@@ -1,0 +1,140 @@
+"""What a person says against the machine, applied on top of what the stages made.
+
+Corrections name things by where they are, in the local frame. Here they are brought into the manhattan frame
+and sorted by the stage that they follow; the modules ``corrections_walls``, ``_doors`` and ``_regions`` apply
+them in the order in which they were made. The machine's own results stay untouched; a correction that finds
+nothing is a sentence for the user, never an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from floorplan_core.model import LayoutPlane, ManhattanFrame
+from floorplan_core.model.corrections import (
+    AcceptDoor,
+    AddDoor,
+    AddWall,
+    Correction,
+    HidePlane,
+    KeepPlane,
+    LabelRegion,
+    MergeRegions,
+    MovePlane,
+    NameRegion,
+    PlaneAt,
+    Point,
+    RejectDoor,
+    ResizeDoor,
+    SplitRegion,
+)
+
+WALL_KINDS = (HidePlane, KeepPlane, MovePlane, AddWall)
+DOOR_KINDS = (AcceptDoor, RejectDoor, AddDoor, ResizeDoor)
+SHAPE_KINDS = (MergeRegions, SplitRegion)
+NAME_KINDS = (LabelRegion, NameRegion)
+
+REACH = 0.5  # m from the point of a correction, within which the thing it is about must lie
+
+Span = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Remarks:
+    """What came of some corrections."""
+
+    machine: tuple[tuple[str, str], ...] = ()  # id, what the machine had said of it
+    warnings: tuple[str, ...] = ()  # sentences
+
+    def __add__(self, other: Remarks) -> Remarks:
+        return Remarks(self.machine + other.machine, self.warnings + other.warnings)
+
+
+NOTHING = Remarks()
+
+
+@dataclass(frozen=True)
+class Said:
+    """The corrections of one plan in its manhattan frame, by what they change; each in the order made."""
+
+    walls: tuple[Correction, ...] = ()
+    doors: tuple[Correction, ...] = ()
+    shapes: tuple[Correction, ...] = ()
+    names: tuple[Correction, ...] = ()
+
+
+def in_plan(corrections: Sequence[Correction], frame: ManhattanFrame) -> Said:
+    """The corrections with all points in manhattan coordinates."""
+    moved: list[Correction] = [_moved(c, frame) for c in corrections]
+
+    def of(kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:
+        return tuple(c for c in moved if isinstance(c, kinds))
+
+    return Said(of(WALL_KINDS), of(DOOR_KINDS), of(SHAPE_KINDS), of(NAME_KINDS))
+
+
+def _moved(correction: Any, frame: ManhattanFrame) -> Any:
+    """A correction, or a part of one, with its points moved."""
+
+    def value(name: str, old: Any) -> Any:
+        if isinstance(old, PlaneAt):
+            return _moved(old, frame)
+        if not isinstance(old, tuple):
+            return old
+        if name == "normal":
+            return _points([old], frame, direction=True)[0]
+        return _points(old, frame) if old and isinstance(old[0], tuple) else _points([old], frame)[0]
+
+    values = {f.name: value(f.name, getattr(correction, f.name)) for f in fields(correction)}
+    return replace(correction, **values)
+
+
+def _points(points: Sequence[Point], frame: ManhattanFrame, direction: bool = False) -> tuple[Point, ...]:
+    moved = frame.plan_from_local(np.array(points, dtype=np.float64).reshape(-1, 2))
+    if direction:
+        moved = moved - frame.plan_from_local(np.zeros((1, 2)))
+    return tuple((float(x), float(y)) for x, y in moved)
+
+
+def place(point: Point) -> str:
+    """A point as a sentence names it."""
+    return f"({point[0]:.2f}, {point[1]:.2f})"
+
+
+def line_of(start: Point, end: Point) -> tuple[int, float, Span]:
+    """The axis-parallel line that two clicks mean: axis of its normal, offset, from where to where."""
+    axis = 0 if abs(end[0] - start[0]) < abs(end[1] - start[1]) else 1
+    low, high = sorted((start[1 - axis], end[1 - axis]))
+    return axis, 0.5 * (start[axis] + end[axis]), (low, high)
+
+
+def runs_of(plane: LayoutPlane) -> list[Span]:
+    """Where a plane has a surface: its wall runs and what was seen of it."""
+    return [(float(a), float(b)) for a, b in (*plane.walls, *plane.observed)]
+
+
+def beyond(runs: Sequence[Span], at: float) -> float:
+    """Metres from ``at`` to the nearest of the runs along the same line; 0 inside one, inf without any."""
+    return min((max(a - at, at - b, 0.0) for a, b in runs), default=float("inf"))
+
+
+def without(runs: np.ndarray[Any, Any], span: Span) -> np.ndarray[Any, Any]:
+    """The runs (K, 2) less a span."""
+    low, high = span
+    pieces = [p for s, e in runs for p in ((s, min(e, low)), (max(s, high), e)) if p[1] - p[0] > 1e-6]
+    return np.array(pieces, dtype=np.float64).reshape(-1, 2)
+
+
+def joined(runs: np.ndarray[Any, Any], span: Span) -> np.ndarray[Any, Any]:
+    """The runs (K, 2) and a span as disjoint runs in order."""
+    out: list[list[float]] = []
+    for start, end in sorted([*((float(s), float(e)) for s, e in runs), span]):
+        if out and start <= out[-1][1] + 1e-6:
+            out[-1][1] = max(out[-1][1], end)
+        else:
+            out.append([start, end])
+    return np.array(out, dtype=np.float64).reshape(-1, 2)
