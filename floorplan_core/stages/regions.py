@@ -23,6 +23,8 @@ from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, union
 from floorplan_core.model import Door, LayoutPlane, LayoutSegment, OccupancyGrid, RectangleCover, Region
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
+from floorplan_core.stages.room_growth import RoomGrower
+from floorplan_core.stages.room_splits import RoomSplitter
 from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
 
 Float = NDArray[np.float64]
@@ -49,11 +51,17 @@ def build_regions(
     ]
     walls = WallSurfaces(planes, segments)
     pieces: list[tuple[Any, NDArray[np.int64]]] = []
+    splitter = RoomSplitter(planes, doors, grid, walls.thickness)
     for shape, (rows, _) in zip(shapes, groups, strict=True):
-        pieces += [(walls.fit(part), rows) for part in polygons_of(shape)]
+        rooms = [room for part in polygons_of(shape) for room in splitter.split(part)]
+        pieces += [(walls.fit(room), rows) for room in rooms]
+    apart = _disjoint(pieces, grid, config.sliver)
+    whole = RoomGrower(planes, walls, doors, grid, config.wall_support).grow_all(
+        [shape for shape, _ in apart]
+    )
     regions = [
         make_region(polygon, rows, walls, doors, grid)
-        for polygon, rows in _disjoint(pieces, grid, config.sliver)
+        for polygon, (_, rows) in zip(whole, apart, strict=True)
     ]
     kept = [r for r in regions if _acceptable(r, config)]
     kept.sort(

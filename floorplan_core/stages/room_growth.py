@@ -1,0 +1,193 @@
+"""Rooms that were seen in part, completed: their guessed sides go out to where walls must be.
+
+What closes a glimpsed room are speculated planes at the edge of what was seen, so that it ends in steps short
+of its true walls. Three rules complete it, each only over space that nothing seen contradicts: a notch
+between guessed sides is filled; a guessed side goes out to the next wall or region ahead, one wall's
+thickness before it where only the other face was seen; where there is none, to the next plane of the building
+that faces the same way. In and out: disjoint polygons. Cost: guessed sides times walls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.raster import polygon_window
+from floorplan_core.geometry.rectilinear import polygons_of
+from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
+from floorplan_core.stages.region_sides import WallSurfaces, sides_of
+
+Float = NDArray[np.float64]
+
+_REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
+_BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
+_ON = 0.08  # m between a side and a plane on which it lies
+_DEEP = 0.15  # m: a wall less deep in the new part is its side
+_WALL = 0.3  # m of wall that counts
+_FACES = 0.3  # share of a side that a wall ahead must face to close it
+_KNOWN = 0.25  # share of the sides around a notch that may have been seen
+_OPEN = 0.05  # share of cells in the new part that may have been seen free and yet taken for no room
+_EXACT = 1e-6  # m
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """A guessed side, and the way out of the room."""
+
+    facing: Facing
+    at: float  # metres, its offset
+    low: float  # metres along it
+    high: float
+
+    @property
+    def out(self) -> int:
+        """+1 or -1: the way out along the facing's axis."""
+        return -self.facing.sign
+
+    def ahead(self, depth: float, margin: float = 0.0) -> Any:
+        """The box from the side to ``depth`` metres ahead, its ends ``margin`` metres narrower."""
+        u0, u1 = sorted((self.at, self.at + self.out * depth))
+        v0, v1 = self.low + margin, self.high - margin
+        return shapely.box(u0, v0, u1, v1) if self.facing.axis == 0 else shapely.box(v0, u0, v1, u1)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How far a side goes: to ``stop``, where something closes the room; never beyond ``limit``. Metres."""
+
+    stop: float = np.inf
+    limit: float = _REACH
+
+    def within(self, stop: float, limit: float) -> Reach:
+        """The nearer of both."""
+        return Reach(min(self.stop, stop), min(self.limit, limit))
+
+
+class RoomGrower:
+    """Completes regions with guessed sides."""
+
+    def __init__(
+        self,
+        planes: Sequence[LayoutPlane],
+        walls: WallSurfaces,
+        doors: Sequence[Door],
+        grid: OccupancyGrid,
+        min_support: float,
+    ) -> None:
+        self._walls, self._doors, self._grid = walls, doors, grid
+        self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
+        self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
+        self._tree = shapely.STRtree(self._lines)
+        seen = [p for p in planes if not p.speculated]
+        strong = [p for p in seen if p.support >= min_support and not p.recess]
+        self._offsets = {f: np.array([p.offset for p in seen if p.facing == f]) for f in Facing}
+        self._borrowed = {f: np.array([p.offset for p in strong if p.facing == f]) for f in Facing}
+
+    def grow_all(self, polygons: Sequence[Any]) -> list[Any]:
+        """Each polygon completed, one after the other, beside the others as they are by then."""
+        grown = list(polygons)
+        boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
+        for k, polygon in enumerate(grown):
+            near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
+            grown[k] = self.grow(polygon, shapely.union_all([grown[j] for j in np.sort(near) if j != k]))
+        return grown
+
+    def grow(self, polygon: Any, others: Any) -> Any:
+        """``polygon`` completed, without touching ``others`` (one shapely geometry)."""
+        polygon = shapely.orient_polygons(polygon)
+        if not any(s.speculated for s in self._sides(polygon)):
+            return polygon
+        filled = self._fill_notches(polygon, others)
+        return self._fill_notches(self._push_sides(filled, others), others)
+
+    def _sides(self, polygon: Any) -> list[RegionSide]:
+        return [s for s in sides_of(polygon, self._walls, self._doors) if not s.hole]
+
+    def _fill_notches(self, polygon: Any, others: Any) -> Any:
+        """The polygon with the parts of its bounding box that only guessed sides cut off."""
+        for notch in polygons_of(shapely.difference(shapely.box(*polygon.bounds), polygon)):
+            sides = self._sides(polygon)
+            contact = np.array(
+                [shapely.LineString([s.start, s.end]).intersection(notch).length for s in sides]
+            )
+            known = float(contact @ np.array([s.observed for s in sides]))
+            if known < _KNOWN * contact.sum() and self._unknown(notch, polygon, others):
+                polygon = _largest(polygon.union(notch))
+        return polygon
+
+    def _push_sides(self, polygon: Any, others: Any) -> Any:
+        """The polygon with each guessed side pushed out as far as it goes."""
+        for front in list(self._frontiers(polygon)):
+            depth = self._depth(front, others)
+            if depth > _ON and self._unknown(front.ahead(depth), polygon, others):
+                polygon = polygon.union(front.ahead(depth))
+        return _largest(polygon)
+
+    def _frontiers(self, polygon: Any) -> Iterator[Frontier]:
+        """The guessed sides that lie on no plane of the building."""
+        for side in self._sides(polygon):
+            facing = self._walls.facing(np.array(side.start), np.array(side.end))
+            a = facing.axis
+            if side.speculated and not (np.abs(self._offsets[facing] - side.start[a]) < _ON).any():
+                yield Frontier(facing, side.start[a], *sorted((side.start[1 - a], side.end[1 - a])))
+
+    def _depth(self, front: Frontier, others: Any) -> float:
+        """Metres by which a side goes out; 0 where it stays."""
+        reach = self._before_regions(front, others, self._before_walls(front))
+        if reach.stop <= reach.limit:
+            return reach.stop
+        planes = (self._borrowed[front.facing] - front.at) * front.out
+        planes = planes[(planes > _ON) & (planes <= min(reach.limit, _BORROWED))]
+        return float(planes.min()) if len(planes) else 0.0
+
+    def _before_walls(self, front: Frontier) -> Reach:
+        """A wall that faces much of the side closes the room; any other keeps it from going on."""
+        reach, length = Reach(), front.high - front.low
+        for facing, offset, start, end in self._runs:
+            if facing.axis == front.facing.axis:
+                ahead = (offset - front.at) * front.out
+                faced = min(end, front.high) - max(start, front.low)
+                if ahead > _ON and faced > min(_WALL, length / 2):
+                    stop = ahead - (0.0 if facing == front.facing else self._walls.thickness)
+                    reach = reach.within(stop if faced > _FACES * length else np.inf, ahead)
+            elif front.low + _DEEP < offset < front.high - _DEEP:
+                near, far = sorted(((start - front.at) * front.out, (end - front.at) * front.out))
+                if far - max(near, 0.0) > _WALL:
+                    reach = reach.within(np.inf, max(near, 0.0))
+        return reach
+
+    def _before_regions(self, front: Frontier, others: Any, reach: Reach) -> Reach:
+        """Between two regions stands a wall."""
+        met = front.ahead(_REACH, min(_DEEP, (front.high - front.low) / 3)).intersection(others)
+        if met.is_empty:
+            return reach
+        a = front.facing.axis
+        ahead = float(np.abs(np.array(met.bounds)[[a, a + 2]] - front.at).min())
+        return reach.within(ahead - self._walls.thickness, ahead)
+
+    def _unknown(self, part: Any, polygon: Any, others: Any) -> bool:
+        """True where nothing seen contradicts that ``part`` is floor of the room ``polygon``."""
+        if part.intersection(others).area > _EXACT:
+            return False
+        window, inside = polygon_window(part, self._grid.origin, self._grid.cell, self._grid.states.shape)
+        outdoors = (self._grid.states[window] == FREE) & ~self._grid.universe[window] & inside
+        if outdoors.sum() > _OPEN * inside.sum():
+            return False
+        near = self._lines[self._tree.query(part.buffer(_DEEP), predicate="intersects")]
+        before, after = (s.buffer(-_DEEP, join_style="mitre") for s in (polygon, polygon.union(part)))
+        gained = shapely.length(shapely.intersection(near, after.difference(before)))
+        return not bool((gained > _WALL).any())
+
+
+def _line(facing: Facing, offset: float, start: float, end: float) -> list[tuple[float, float]]:
+    ends = [(offset, start), (offset, end)]
+    return ends if facing.axis == 0 else [(v, u) for u, v in ends]
+
+
+def _largest(shape: Any) -> Any:
+    return shapely.orient_polygons(polygons_of(shapely.set_precision(shape, _EXACT))[0])
