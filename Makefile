@@ -4,11 +4,11 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo-plan
 
-.PHONY: help setup demo test check format bench accuracy docs clean
+.PHONY: help setup demo test check format bench bench-ui accuracy app app-test docs clean
 .DEFAULT_GOAL := help
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 18
 
 setup: $(READY) ## the environment in .venv, with the system libraries it needs
 
@@ -37,6 +37,18 @@ bench: $(READY) ## stage times beside the time to read, growth, greedy against o
 
 accuracy: $(READY) ## plans of surveys with known truth, measured
 	$(BIN)/python -m benchmarks.accuracy
+
+bench-ui: $(READY) ## how long the window ever stands still while a big survey loads and plans
+	QT_QPA_PLATFORM=offscreen $(BIN)/python -m benchmarks.ui
+
+app: $(READY) ## the program in one folder, dist/floorcast, to hand out
+	rm -rf build/site
+	$(BIN)/python -m pip --disable-pip-version-check install --quiet --no-deps --target build/site .
+	$(BIN)/pyinstaller --noconfirm --log-level ERROR --distpath dist --workpath build/pyinstaller build_app.spec
+	@du -sm dist/floorcast | sed 's/\([0-9]*\).*/dist\/floorcast: \1 MB/'
+
+app-test: ## the program of `make app` on the bundled survey, with no Python to be found
+	sh tools/app_test.sh dist/floorcast
 
 docs: $(READY) ## pages that are written from the code
 	$(BIN)/floorcast settings --markdown > docs/settings.md
