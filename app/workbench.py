@@ -22,6 +22,7 @@ from floorcast_app.run_replay import Snapshot, snapshots
 from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
 from floorcast_app.state import Check, DocumentState, SurveyRef
+from floorcast_app.tools.box import ToolBox
 from floorcast_app.view_state import ViewState
 from floorplan_core.errors import FloorPlanError, UsageError
 from floorplan_core.model import FloorPlan
@@ -100,6 +101,7 @@ class Workbench:
         self.timeline: list[Snapshot] = []  # of a replayed run
         self.timeline_changed = Event()  # ()
         self.setting_asked = Event()  # (name) show "stage.field" in the settings form
+        self.toolbox = ToolBox(self)  # the tool in hand, one for all plan panes
         self.document.changed.connect(self._document_changed)
         self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
         self.jobs.ended.connect(self._job_ended)

@@ -1,0 +1,85 @@
+"""Dimensions: chains and overall lengths outside the plan, widths of arms inside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import shapely
+
+from floorcast_app.layers.source import PlanSource
+from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, overall
+from floorplan_core.exporters.svg_labels import is_rectangle
+
+SLIM = 1.8  # arms this much longer than wide get a width
+PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9)  # along the arm, in the order in which they are tried
+KEEP_OFF = 0.35  # metres around a width inside the plan
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of dimensions beside the plan."""
+
+    axis: int  # of the faces' normal: 1 above and below the plan, 0 beside it
+    sign: int  # +1 above and to the right
+    level: int  # 1 next to the plan, 2 beyond
+    edge: float  # metres along ``axis``: where the walls of the plan end
+    spans: tuple[Span, ...]
+
+
+@dataclass(frozen=True)
+class Width:
+    """The clear width of an arm."""
+
+    start: tuple[float, float]  # metres, manhattan frame
+    end: tuple[float, float]
+    length: float  # metres
+
+
+@dataclass(frozen=True)
+class DimensionsLayer:
+    """Everything that is dimensioned without being asked for."""
+
+    rows: tuple[Row, ...]
+    widths: tuple[Width, ...]
+
+
+def dimensions_layer(source: PlanSource) -> DimensionsLayer:
+    """As on the drawing: a chain above and to the left, the others where they say more, and the arms."""
+    if not source.plan.regions:
+        return DimensionsLayer((), ())
+    taken = shapely.union_all(
+        [
+            *(leaf.sector for made in source.swings for leaf in made),
+            *(shapely.box(*o.bounds) for o in source.walls.openings),
+        ]
+    )
+    slim = [r for r in source.plan.regions if not is_rectangle(r)]
+    widths = (_width(arm, taken) for r in slim for arm in arms(r.polygon, SLIM))
+    rows = (*_rows(source, 1, 1), *_rows(source, 0, -1))
+    return DimensionsLayer(rows, tuple(w for w in widths if w is not None))
+
+
+def _rows(source: PlanSource, axis: int, sign: int) -> list[Row]:
+    """The chain of the side ``sign``, that of the other side if it says more, and the whole length."""
+    regions = source.plan.regions
+    edges = {s: source.extent[axis + (2 if s > 0 else 0)] for s in (-1, 1)}
+    one, other = chain(regions, axis, sign), chain(regions, axis, -sign)
+    total = (Span(*overall(regions, 1 - axis), float("nan")),)
+    rows = [Row(axis, sign, 1, edges[sign], one)]
+    if differs(other, [*one, *total]):
+        rows.append(Row(axis, -sign, 1, edges[-sign], other))
+    if len(one) > 1:
+        rows.append(Row(axis, sign, 2, edges[sign], total))
+    return rows
+
+
+def _width(arm: Arm, taken: object) -> Width | None:
+    """Across the arm, at the first place where nothing is in the way."""
+    for share in PLACES:
+        at = arm.start + share * (arm.end - arm.start)
+        ends = ((arm.low, at), (arm.high, at))
+        a, b = ends if arm.axis == 0 else (ends[0][::-1], ends[1][::-1])
+        ground = shapely.LineString([a, b]).buffer(KEEP_OFF, cap_style="flat")
+        if not shapely.intersects(taken, ground):
+            return Width(a, b, arm.width)
+    return None

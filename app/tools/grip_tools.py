@@ -1,0 +1,105 @@
+"""Tools that take hold of what is selected and draw where nothing is: planes and doors."""
+
+from __future__ import annotations
+
+from floorcast_app.layers.snap_index import Snap
+from floorcast_app.tools.draw_tools import TwoPointTool
+from floorcast_app.tools.gestures import SNAP, At, Mark, Point
+from floorcast_app.tools.select_tool import SelectTool
+
+
+class GripTool(SelectTool):
+    """A click on a thing of its kind selects it, and it can be dragged; clicks elsewhere draw a new one."""
+
+    cursor = "cross"
+    kind = ""  # of the items that are selected rather than drawn over
+    drawing: type[TwoPointTool] = TwoPointTool
+
+    def __init__(self, workbench: object) -> None:
+        super().__init__(workbench)
+        self._drawing = self.drawing(workbench)
+
+    @property
+    def busy(self) -> bool:
+        return super().busy or self._drawing.busy
+
+    def press(self, at: At) -> None:
+        if not self._drawing.busy:
+            super().press(at)
+
+    def move(self, at: At) -> None:
+        self._drawing.move(at)
+
+    def click(self, at: At) -> None:
+        if not self._drawing.busy and at.item is not None and at.item.kind == self.kind:
+            self.workbench.selection.select(at.item, at.ctrl)
+        else:
+            self._drawing.release(at, False)
+
+    def key(self, key: str) -> bool:
+        return self._drawing.key(key) if self._drawing.busy else super().key(key)
+
+    def cancel(self) -> bool:
+        return self._drawing.cancel() or super().cancel()
+
+    def release(self, at: At, moved: bool) -> None:
+        if self._drawing.busy:
+            self._drawing.release(at, moved)
+        else:
+            super().release(at, moved)
+
+    def marks(self) -> tuple[Mark, ...]:
+        return super().marks() if super().busy else (*super().marks(), *self._drawing.marks())
+
+
+class PlaneLine(TwoPointTool):
+    """The two clicks of a plane that bounds both its sides."""
+
+    role = "selection"
+
+    def finish(self, start: Point, end: Point) -> None:
+        self.workbench.try_run("correct.add_wall", start=start, end=end, thickness=0.0)
+
+
+class DoorLine(TwoPointTool):
+    """The two clicks on a wall."""
+
+    role = "door"
+    nowhere = "Click on a wall: a door needs one."
+
+    def __init__(self, workbench: object) -> None:
+        super().__init__(workbench)
+        self._axis = 0
+
+    def start(self, at: At) -> Snap | None:
+        source = self.source
+        wall = source.snaps.wall(at.x, at.y, at.reach(SNAP)) if source is not None else None
+        if wall is not None:
+            self._axis = wall.axis or 0
+        return wall
+
+    def aim(self, first: Point, at: At) -> Snap:
+        snap = self.snap(at)
+        on_wall = (first[0], snap.y) if self._axis == 0 else (snap.x, first[1])
+        return Snap(snap.kind, *on_wall, self._axis)
+
+    def finish(self, start: Point, end: Point) -> None:
+        self.workbench.try_run("correct.add_door", start=start, end=end)
+
+
+class PlaneTool(GripTool):
+    """Move planes, add planes."""
+
+    name = "plane"
+    kind = "plane"
+    drawing = PlaneLine
+    hint = "Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane."
+
+
+class DoorTool(GripTool):
+    """Resize doors, add doors."""
+
+    name = "door"
+    kind = "door"
+    drawing = DoorLine
+    hint = "Click both jambs on a wall, or type the width. Drag the ends of the selected door."

@@ -1,0 +1,163 @@
+"""How observed points, the path, planes and free space are painted."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QColor, QImage, QPainter, QPolygonF
+
+from floorcast_app.layers.free_space import PREDICTED, SEEN_FREE, SOLID, UNSEEN, FreeSpaceLayer
+from floorcast_app.layers.observed import PointsLayer, TrajectoryLayer
+from floorcast_app.layers.planes import PlaneShape, PlanesLayer
+from floorcast_app.theme import Colours
+from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, lines_path, path_of, pen
+
+DOT = 0.035  # metres that a dot covers when zoomed in
+SMALLEST_DOT, LARGEST_DOT = 2, 5  # device pixels
+DOTTED = (1.5, 4.0)  # pixels
+GUESSED = (7.0, 5.0)
+
+
+class PointsView:
+    """Dots, splatted into an image: faster than drawing each, and crisp at every zoom."""
+
+    def __init__(self, model: PointsLayer) -> None:
+        self._model = model
+
+    def paint(self, painter: QPainter, frame: Frame) -> None:
+        """The dots in the colours of their planes."""
+        width, height = (round(v * frame.ratio) for v in (frame.camera.width, frame.camera.height))
+        canvas = np.zeros((height, width), dtype=np.uint32)
+        c = frame.colours
+        palette = np.array([_argb(n, a) for n, a in ((c.faint, 0.55), (c.plane_ew, 0.9), (c.plane_ns, 0.9))])
+        size = int(min(max(DOT * frame.camera.scale * frame.ratio, SMALLEST_DOT), LARGEST_DOT))
+        at = np.floor(frame.camera.to_screen(self._model.xy) * frame.ratio).astype(np.int64) - size // 2
+        seen = (at[:, 0] > -size) & (at[:, 0] < width) & (at[:, 1] > -size) & (at[:, 1] < height)
+        facing = self._model.facing[seen]
+        tone = palette[np.where(facing < 0, 0, 1 + facing // 2)]
+        x, y = at[seen].T
+        for dx in range(size):
+            for dy in range(size):
+                u, v = x + dx, y + dy
+                inside = (u >= 0) & (u < width) & (v >= 0) & (v < height)
+                canvas[v[inside], u[inside]] = tone[inside]
+        draw_pixels(painter, frame, canvas)
+
+
+class TrajectoryView:
+    """The path with a mark where it begins."""
+
+    def __init__(self, model: TrajectoryLayer) -> None:
+        self._path = QPolygonF([QPointF(x, y) for x, y in model.xy.tolist()])
+
+    def paint(self, painter: QPainter, frame: Frame) -> None:
+        """A thin line in the accent."""
+        if self._path.size() < 2:
+            return
+        painter.setTransform(frame.transform(), True)
+        painter.setPen(pen(frame.colours.accent, 1.4, 0.75))
+        painter.drawPolyline(self._path)
+        painter.resetTransform()
+        painter.setPen(pen(frame.colours.canvas, 1.5))
+        painter.setBrush(colour(frame.colours.accent))
+        painter.drawEllipse(frame.transform().map(self._path.first()), 4, 4)
+
+
+class PlanesView:
+    """Dotted all across the pane, full where they were seen."""
+
+    def __init__(self, model: PlanesLayer) -> None:
+        self._shapes = model.shapes
+        self._runs = {s.item: lines_path(s.lines()) for s in model.shapes}
+
+    def paint(self, painter: QPainter, frame: Frame) -> None:
+        """Red for planes across x, green for those across y."""
+        shown = [s for s in self._shapes if s.facing in frame.look.facings and frame.shows(*_key(s))]
+        for shape in shown:
+            dashes, alpha = (GUESSED, 0.5) if shape.speculated else (DOTTED, 0.7)
+            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 1.0, alpha, dashes))
+            painter.drawLine(*across(frame, shape.facing.axis, shape.offset))
+        painter.setTransform(frame.transform(), True)
+        for shape in shown:
+            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 2.6))
+            painter.drawPath(self._runs[shape.item])
+
+
+class FreeSpaceView:
+    """Cells by their state; predicted ones hatched; the outline of the plan."""
+
+    def __init__(self, model: FreeSpaceLayer) -> None:
+        self._model = model
+        self._outlines = path_of(model.outlines)
+
+    def paint(self, painter: QPainter, frame: Frame) -> None:
+        """White, hatched grey, black, and a tone for what nobody saw."""
+        draw_pixels(painter, frame, self._pixels(frame))
+        painter.setTransform(frame.transform(), True)
+        painter.setPen(pen(frame.colours.hover, 1.6))
+        painter.drawPath(self._outlines)
+
+    def _pixels(self, frame: Frame) -> NDArray[np.uint32]:
+        """The nearest cell of each device pixel."""
+        width, height = (round(v * frame.ratio) for v in (frame.camera.width, frame.camera.height))
+        scale, (x, y) = frame.camera.scale * frame.ratio, frame.camera.centre
+        model = self._model
+        along = (x - model.origin[0] + (np.arange(width) + 0.5 - width / 2) / scale) / model.cell
+        up = (y - model.origin[1] - (np.arange(height) + 0.5 - height / 2) / scale) / model.cell
+        padded = np.pad(model.codes, 1)  # UNSEEN around the grid
+        ix, iy = (
+            np.clip(np.floor(v) + 1, 0, n + 1).astype(np.int64)
+            for v, n in zip((along, up), model.codes.shape[::-1], strict=True)
+        )
+        codes = padded[iy][:, ix]
+        return self._palette(frame.colours)[codes + 4 * self._on_line(frame, width, height)]
+
+    def _on_line(self, frame: Frame, width: int, height: int) -> NDArray[np.uint8]:
+        """1 where a pixel lies on a line of the hatching, which stays with the plan."""
+        step = max(round(HATCH_STEP * frame.ratio), 3)
+        s = frame.camera.scale * frame.ratio
+        shift = round(frame.camera.centre[0] * s) + round(-frame.camera.centre[1] * s)
+        diagonal = (np.arange(height)[:, None] + np.arange(width)[None] + shift) % step
+        return (diagonal < max(round(1.5 * frame.ratio), 1)).astype(np.uint8)
+
+    def _palette(self, c: Colours) -> NDArray[np.uint32]:
+        """By code; the second four where the hatching is."""
+        tones = {UNSEEN: c.unobserved, SEEN_FREE: c.free, PREDICTED: c.predicted, SOLID: c.occupied}
+        plain = [_argb(tones[k]) for k in range(4)]
+        lines = list(plain)
+        lines[PREDICTED] = _argb(QColor(c.predicted).darker(145).name())
+        return np.array([*plain, *lines], dtype=np.uint32)
+
+
+def plane_colour(colours: Colours, axis: int) -> str:
+    """Red for planes across x, green for those across y."""
+    return colours.plane_ns if axis else colours.plane_ew
+
+
+def across(frame: Frame, axis: int, offset: float) -> tuple[QPointF, QPointF]:
+    """The ends of a line all across the pane, pixels."""
+    x, y = frame.camera.point(offset, offset)
+    if axis == 0:
+        return QPointF(x, 0), QPointF(x, frame.camera.height)
+    return QPointF(0, y), QPointF(frame.camera.width, y)
+
+
+def draw_pixels(painter: QPainter, frame: Frame, pixels: NDArray[np.uint32]) -> None:
+    """Device pixels (premultiplied ARGB) over the whole pane."""
+    height, width = pixels.shape
+    if not pixels.size:
+        return
+    pixels = np.ascontiguousarray(pixels)
+    image = QImage(pixels.data, width, height, width * 4, QImage.Format.Format_ARGB32_Premultiplied)
+    painter.drawImage(QRectF(0, 0, frame.camera.width, frame.camera.height), image)
+
+
+def _argb(name: str, alpha: float = 1.0) -> int:
+    """Premultiplied."""
+    r, g, b = (int(name[i : i + 2], 16) for i in (1, 3, 5))
+    return (round(255 * alpha) << 24) | (round(r * alpha) << 16) | (round(g * alpha) << 8) | round(b * alpha)
+
+
+def _key(shape: PlaneShape) -> tuple[str, str]:
+    return shape.item.kind, shape.item.id
