@@ -14,6 +14,7 @@ class Step:
 
     text: str  # "Move wall p12", as the undo menu shows it
     state: DocumentState
+    gesture: str = ""  # steps of one gesture (a slider that is dragged) are one step
 
 
 class Document:
@@ -51,13 +52,17 @@ class Document:
         self._saved = state if saved else None
         self._tell(before)
 
-    def apply(self, text: str, state: DocumentState) -> None:
-        """Take a step; what had been undone is forgotten. Nothing happens where nothing changes."""
+    def apply(self, text: str, state: DocumentState, gesture: str = "") -> None:
+        """Take a step; what had been undone is forgotten. Nothing happens where nothing changes.
+
+        A step of the same ``gesture`` as the one before takes its place.
+        """
         before = self.state
         if state == before:
             return
-        self._steps[self._at + 1 :] = [Step(text, state)]
-        self._at += 1
+        goes_on = gesture != "" and self._steps[self._at].gesture == gesture
+        self._at += not goes_on
+        self._steps[self._at :] = [Step(text, state, gesture)]
         self._tell(before)
 
     def go_to(self, position: int) -> None:

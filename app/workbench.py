@@ -139,9 +139,9 @@ class Workbench:
         """The document's present state."""
         return self.document.state
 
-    def change(self, text: str, **values: Any) -> None:
+    def change(self, text: str, gesture: str = "", **values: Any) -> None:
         """One undoable step: fields of the :class:`DocumentState` with their new values."""
-        self.document.apply(text, replace(self.state, **values))
+        self.document.apply(text, replace(self.state, **values), gesture)
 
     def correct(self, text: str, *corrections: Correction) -> None:
         """One undoable step that adds corrections; the plan follows."""

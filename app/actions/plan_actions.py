@@ -12,10 +12,13 @@ if TYPE_CHECKING:
     from floorplan_core.config import Config
 
 
-def set_setting(workbench: Workbench, name: str, value: Any) -> None:
-    """Change one setting, ``stage.field``; what depends on it is planned again."""
+def set_setting(workbench: Workbench, name: str, value: Any, gesture: str = "") -> None:
+    """Change one setting, ``stage.field``; what depends on it is planned again.
+
+    Calls with the same ``gesture`` (a slider that is dragged) are one step of the history.
+    """
     config = with_setting(workbench.state.config, name, value)
-    workbench.change(f"Set {name} to {value}", config=config)
+    workbench.change(f"Set {name} to {value}", gesture, config=config)
 
 
 def with_setting(config: Config, name: str, value: Any) -> Config:
