@@ -1,0 +1,414 @@
+"""A pane that shows the plan from above: layers, shared camera, selection and hover, and the tool in hand.
+
+The layers are painted once into a pixmap that is kept until camera, plan, look or theme change; what changes
+with the pointer (hover, selection, the tool's marks) is painted over it. Hits are looked up in arrays, by
+the distance to a line in pixels. A QGraphicsView of one item for each line took four times as long to pan.
+"""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPixmap,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from floorcast_app import theme
+from floorcast_app.layers.hit_index import segment_distance
+from floorcast_app.layers.item_shapes import item_shape
+from floorcast_app.layers.source import source_of
+from floorcast_app.panels.item_menu import item_menu
+from floorcast_app.selection import Item
+from floorcast_app.state import DocumentState
+from floorcast_app.tools.gestures import At, Point
+from floorcast_app.translation import tr
+from floorcast_app.view_state import Look
+from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
+from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
+from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
+from floorcast_app.viewports.plan_layers import paint_layers
+from floorcast_app.viewports.plan_overlay import (
+    paint_check,
+    paint_compass,
+    paint_cross,
+    paint_hint,
+    paint_item,
+    paint_marks,
+    paint_pins,
+    paint_scale,
+)
+from floorcast_app.workbench import Workbench
+
+HIT = 6.0  # pixels around a line within which it is hit
+CLICK = 4.0  # pixels that a click may move
+AROUND_ITEM = 1.8  # how much more than a thing is shown when it is zoomed to
+SMALLEST_SPAN = 2.0  # metres: small things are not zoomed to more closely
+KEYS = {Qt.Key.Key_Return: "Enter", Qt.Key.Key_Enter: "Enter", Qt.Key.Key_Backspace: "Backspace"}
+
+
+class PlanCanvas(QWidget):
+    """Base of the plan panes; they say which layers they have and what can be hit in them."""
+
+    kinds: tuple[str, ...] = ()  # names in LAYER_KINDS, from the ground up
+    hits: tuple[str, ...] = ("door", "plane", "region")
+    dotted = False  # planes are hit all along
+    lit = ("region", "door", "plane", "segment")  # kinds of items that light up here
+    pins = False  # corrected things carry a pin
+    empty = "No plan yet."
+
+    def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.workbench = workbench
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(120, 90)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._drawing: Drawing | None = None
+        self._base: QPixmap | None = None
+        self._press: tuple[QPointF, Qt.MouseButton] | None = None
+        self._last = QPointF()
+        self._moved = False
+        self._space = False
+        self._pointer: Point | None = None  # where the pointer is in another pane
+        self._builder = PlanBuilder(self.kinds, self)
+        self._builder.built.connect(self._show)
+        self._listen()
+        if workbench.plan is not None:
+            self._builder.build(workbench.plan)
+
+    # ---- what it shows ----------------------------------------------------------------------------------
+
+    @property
+    def ready(self) -> bool:
+        """True where the present plan is shown."""
+        return not self._builder.busy and (self._drawing is not None or self.workbench.plan is None)
+
+    @property
+    def camera(self) -> Camera:
+        """Plan metres to pixels of this widget."""
+        return Camera.of(self.workbench.view.look, self.width(), self.height())
+
+    def picture(self, width: int, height: int) -> QImage:
+        """The pane as an image of ``width`` x ``height`` pixels."""
+        self._catch_up()
+        image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
+        frame = Frame(Camera.of(self.workbench.view.look, width, height), theme.colours(), self._look())
+        painter = QPainter(image)
+        self._paint_ground(painter, frame)
+        self._paint_over(painter, frame, interactive=False)
+        painter.end()
+        return image
+
+    def _catch_up(self) -> None:
+        """Build what is missing, here and now."""
+        plan = self.workbench.plan
+        shown = self._drawing.source.plan if self._drawing is not None else None
+        if plan is not shown:
+            self._show(self._builder.build_now(plan) if plan is not None else None)
+
+    def _look(self) -> Look:
+        return self.workbench.view.look
+
+    def ground(self, frame: Frame) -> QColor:
+        """Behind the layers."""
+        return colour(frame.colours.canvas)
+
+    # ---- listening --------------------------------------------------------------------------------------
+
+    def _listen(self) -> None:
+        w = self.workbench
+        self._bound = (
+            (w.plan_changed, self._plan_changed),
+            (w.view.changed, self._look_changed),
+            (w.selection.changed, self.update),
+            (w.selection.hover_changed, self.update),
+            (w.selection.zoom_asked, self._zoom_to),
+            (w.document.changed, self._document_changed),
+            (w.toolbox.changed, self._tool_changed),
+            (w.pointer_moved, self._pointer_moved),
+            (theme.changed, self._theme_changed),
+        )
+        for event, listener in self._bound:
+            event.connect(listener)
+
+    def shut_down(self) -> None:
+        """Stop listening; the window calls it when it closes."""
+        self._builder.drop()
+        for event, listener in self._bound:
+            event.disconnect(listener)
+
+    def _plan_changed(self, plan: object) -> None:
+        if self.workbench.plan is None:
+            self._builder.drop()
+            self._show(None)
+        else:
+            self._builder.build(self.workbench.plan)
+
+    def _show(self, drawing: Drawing | None) -> None:
+        self._drawing = drawing
+        self._refresh()
+
+    def _look_changed(self, before: Look, after: Look) -> None:
+        self._refresh()
+
+    def _theme_changed(self, name: str) -> None:
+        self._refresh()
+
+    def _document_changed(self, before: DocumentState, after: DocumentState) -> None:
+        self.update()
+
+    def _tool_changed(self) -> None:
+        cross = self.workbench.toolbox.tool.cursor == "cross"
+        self.setCursor(Qt.CursorShape.CrossCursor if cross else Qt.CursorShape.ArrowCursor)
+        self.update()
+
+    def _pointer_moved(self, x: float | None, y: float | None) -> None:
+        mine = self.underMouse() or x is None or y is None
+        self._pointer = None if mine else (x, y)  # type: ignore[assignment]
+        self.update()
+
+    def _zoom_to(self, item: Item) -> None:
+        """Bring a thing into view; all panes come to the same, so it does not matter which comes last."""
+        bounds = self._bounds(item)
+        if bounds is None:
+            return
+        fields = framed(bounds, AROUND_ITEM)
+        self.workbench.view.set(**{**fields, "span": max(float(fields["span"]), SMALLEST_SPAN)})  # type: ignore[arg-type]
+
+    def _bounds(self, item: Item) -> tuple[float, float, float, float] | None:
+        if item.kind == "check":
+            ends = self._check_ends(item.id)
+            xs, ys = zip(*ends, strict=True) if ends else ((), ())
+            return (min(xs), min(ys), max(xs), max(ys)) if ends else None
+        plan = self.workbench.plan
+        return item_shape(source_of(plan), item).bounds if plan is not None else None
+
+    def _refresh(self) -> None:
+        self._base = None
+        self.update()
+
+    # ---- painting ---------------------------------------------------------------------------------------
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        ratio = self.devicePixelRatioF()
+        frame = Frame(self.camera, theme.colours(), self._look(), ratio)
+        if self._base is None or self._base.size() != self.size() * ratio:
+            self._base = QPixmap(self.size() * ratio)
+            self._base.setDevicePixelRatio(ratio)
+            painter = QPainter(self._base)
+            self._paint_ground(painter, frame)
+            painter.end()
+        painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._base)
+        self._paint_over(painter, frame, interactive=True)
+        painter.end()
+
+    def _paint_ground(self, painter: QPainter, frame: Frame) -> None:
+        painter.fillRect(
+            0, 0, math.ceil(frame.camera.width), math.ceil(frame.camera.height), self.ground(frame)
+        )
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self._drawing is not None:
+            paint_layers(painter, frame, self._drawing.views)
+
+    def _paint_over(self, painter: QPainter, frame: Frame, interactive: bool) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self._drawing is None:
+            middle = (frame.camera.width / 2, frame.camera.height / 2)
+            draw_text(painter, tr(self.empty), middle, BODY, colour(frame.colours.muted))
+            return
+        source, selection = self._drawing.source, self.workbench.selection
+        for item in selection.items:
+            if item.kind in self.lit:
+                paint_item(painter, frame, source, item, True)
+        if interactive and selection.hovered is not None and selection.hovered.kind in self.lit:
+            paint_item(painter, frame, source, selection.hovered, False)
+        self._paint_checks(painter, frame)
+        if self.pins:
+            corrected = tuple(Item(kind, id) for kind, id in getattr(source.plan, "corrected", ()))
+            paint_pins(painter, frame, source, corrected)
+        paint_scale(painter, frame)
+        paint_compass(painter, frame, source)
+        if interactive:
+            self._paint_tool(painter, frame)
+
+    def _paint_checks(self, painter: QPainter, frame: Frame) -> None:
+        if "dimensions" not in frame.look.layers:
+            return
+        c = frame.colours
+        for check in self.workbench.state.checks:
+            ends = self._check_ends(check.id)
+            item = Item("check", check.id)
+            if ends is None or not frame.shows("check", check.id):
+                continue
+            lit = {True: c.selection, False: c.accent}[item in self.workbench.selection.items]
+            tone = c.hover if item == self.workbench.selection.hovered else lit
+            paint_check(painter, frame, ends, math.dist(*ends), tone)
+
+    def _paint_tool(self, painter: QPainter, frame: Frame) -> None:
+        toolbox = self.workbench.toolbox
+        paint_marks(painter, frame, toolbox.marks())
+        if self._pointer is not None:
+            paint_cross(painter, frame, self._pointer)
+        if toolbox.tool.hint and (self.underMouse() or self.hasFocus()):
+            paint_hint(painter, frame, tr(toolbox.tool.hint))
+
+    def _check_ends(self, id: str) -> tuple[Point, Point] | None:
+        """The ends of a measurement in plan coordinates."""
+        check = self.workbench.find(Item("check", id))
+        if check is None or self.workbench.plan is None:
+            return None
+        return self.workbench.to_plan(check.start), self.workbench.to_plan(check.end)
+
+    # ---- what lies where --------------------------------------------------------------------------------
+
+    def item_at(self, position: QPointF) -> Item | None:
+        """The thing at a pixel of this widget."""
+        if self._drawing is None:
+            return None
+        camera = self.camera
+        x, y = camera.to_plan(position.x(), position.y())
+        reach = HIT / camera.scale
+        check = self._check_at(x, y, reach)
+        if check is not None:
+            return check
+        dotted = self.dotted and self.workbench.tool == "select"
+        return self._drawing.source.hits.at(x, y, reach, self._look(), self.hits, dotted)
+
+    def _check_at(self, x: float, y: float, reach: float) -> Item | None:
+        import numpy as np
+
+        if "dimensions" not in self._look().layers:
+            return None
+        for check in self.workbench.state.checks:
+            ends = self._check_ends(check.id)
+            if ends is not None:
+                line = np.array([[*ends[0], *ends[1]]])
+                if segment_distance(line, x, y)[0] <= reach:
+                    return Item("check", check.id)
+        return None
+
+    def _at(self, event: QMouseEvent) -> At:
+        camera, keys = self.camera, event.modifiers()
+        x, y = camera.to_plan(event.position().x(), event.position().y())
+        return At(
+            x,
+            y,
+            camera.scale,
+            self.item_at(event.position()),
+            bool(keys & Qt.KeyboardModifier.ShiftModifier),
+            bool(keys & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier)),
+        )
+
+    # ---- mouse ------------------------------------------------------------------------------------------
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self._press, self._last, self._moved = (event.position(), event.button()), event.position(), False
+        if event.button() == Qt.MouseButton.LeftButton and not self._space and self._drawing is not None:
+            self.workbench.toolbox.press(self._at(event))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        here = self.camera.to_plan(event.position().x(), event.position().y())
+        self.workbench.pointer_moved.emit(*here)
+        if self._press is None:
+            self.workbench.selection.hover(self.item_at(event.position()))
+            self.workbench.toolbox.move(self._at(event))
+            return
+        start, button = self._press
+        if not self._moved and (event.position() - start).manhattanLength() <= CLICK:
+            return
+        self._moved = True
+        if button == Qt.MouseButton.LeftButton and not self._space and self.workbench.toolbox.tool.drags:
+            self.workbench.toolbox.drag(self._at(event))
+        else:
+            self._pan(event.position())
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        press, self._press = self._press, None
+        if press is None or press[1] != event.button():
+            return
+        if event.button() == Qt.MouseButton.LeftButton and not self._space and self._drawing is not None:
+            self.workbench.toolbox.release(self._at(event), self._moved)
+        elif event.button() == Qt.MouseButton.RightButton and not self._moved:
+            self._open_menu(event.position().toPoint())
+        self._tool_changed()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
+        at = self._at(event)
+        if not self.workbench.toolbox.double(at) and self.workbench.tool == "select" and at.item is not None:
+            self.workbench.selection.zoom_asked.emit(at.item)
+        self._press = None
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        notches = event.angleDelta().y() / 120
+        if notches:
+            at = (event.position().x(), event.position().y())
+            self.workbench.view.set(**zoomed(self._look(), self.camera, STEP**notches, at))
+        event.accept()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        self.workbench.selection.hover(None)
+        self.workbench.pointer_moved.emit(None, None)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        if event.reason() == QContextMenuEvent.Reason.Keyboard:  # the mouse opens it when it lets go
+            self._open_menu(QPoint(self.width() // 2, self.height() // 2))
+
+    def _pan(self, position: QPointF) -> None:
+        moved, self._last = position - self._last, position
+        self.setCursor(Qt.CursorShape.ClosedHandCursor)
+        self.workbench.view.set(**panned(self._look(), self.camera, moved.x(), moved.y()))
+
+    def _open_menu(self, position: QPoint) -> None:
+        """What can be done with the thing here; nothing where nothing lies."""
+        item = self.item_at(QPointF(position))
+        if self.workbench.toolbox.cancel() or item is None:
+            return
+        if item not in self.workbench.selection.items:
+            self.workbench.selection.select(item)
+        item_menu(self.workbench, item, self).popup(self.mapToGlobal(position))
+
+    # ---- keys -------------------------------------------------------------------------------------------
+
+    def event(self, event: QEvent) -> bool:
+        """Keys that the tool waits for are not shortcuts meanwhile."""
+        if event.type() == QEvent.Type.ShortcutOverride and self._wants(event):  # type: ignore[arg-type]
+            event.accept()
+            return True
+        return super().event(event)
+
+    def _wants(self, event: QKeyEvent) -> bool:
+        escape = event.key() == Qt.Key.Key_Escape
+        return self.workbench.toolbox.busy and (escape or event.key() in KEYS or event.text().isdigit())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self.workbench.toolbox.cancel():
+            return
+        if event.key() == Qt.Key.Key_Space and not self.workbench.toolbox.busy:
+            self._space = True
+            self.setCursor(Qt.CursorShape.OpenHandCursor)
+            return
+        plain = not event.modifiers() & (
+            Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+        )
+        key = KEYS.get(Qt.Key(event.key()), event.text())
+        if not (plain and key and self.workbench.toolbox.key(key)):
+            super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Space and not event.isAutoRepeat():
+            self._space = False
+            self._tool_changed()
+        super().keyReleaseEvent(event)

@@ -1,0 +1,72 @@
+"""Makes the layers of a plan in a thread, so that a large plan does not hold up the window."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
+
+from floorcast_app.layers.source import PlanSource, source_of
+from floorcast_app.viewports.plan_layers import LayerView, make_views
+from floorplan_core.model import FloorPlan
+
+
+class Drawing:
+    """A plan with what paints its layers."""
+
+    def __init__(self, plan: FloorPlan, kinds: tuple[str, ...]) -> None:
+        self.source: PlanSource = source_of(plan)
+        self.views: dict[str, LayerView] = make_views(self.source, kinds)
+        self.source.hits, self.source.snaps  # noqa: B018 (made here, not at the first move of the pointer)
+
+
+class PlanBuilder(QObject):
+    """Builds the newest plan that it was given; older ones are dropped."""
+
+    built = Signal(object)  # Drawing
+
+    _done = Signal(int, object)
+
+    def __init__(self, kinds: tuple[str, ...], parent: QObject) -> None:
+        super().__init__(parent)
+        self._kinds = kinds
+        self._serial = 0
+        self._waiting = False
+        self._done.connect(self._take)
+
+    @property
+    def busy(self) -> bool:
+        """True while a plan is being built."""
+        return self._waiting
+
+    def build(self, plan: FloorPlan) -> None:
+        """Build ``plan`` in a thread; :attr:`built` says when."""
+        self._serial += 1
+        self._waiting = True
+        QThreadPool.globalInstance().start(_Task(self, self._serial, plan, self._kinds))
+
+    def build_now(self, plan: FloorPlan) -> Drawing:
+        """Build ``plan`` here."""
+        self.drop()
+        return Drawing(plan, self._kinds)
+
+    def drop(self) -> None:
+        """Forget what is being built."""
+        self._serial += 1
+        self._waiting = False
+
+    def _take(self, serial: int, drawing: Drawing) -> None:
+        if serial == self._serial:
+            self._waiting = False
+            self.built.emit(drawing)
+
+
+class _Task(QRunnable):
+    def __init__(self, builder: PlanBuilder, serial: int, plan: FloorPlan, kinds: tuple[str, ...]) -> None:
+        super().__init__()
+        self._builder, self._serial, self._plan, self._kinds = builder, serial, plan, kinds
+
+    def run(self) -> None:
+        drawing = Drawing(self._plan, self._kinds)
+        try:
+            self._builder._done.emit(self._serial, drawing)
+        except RuntimeError:  # the pane was closed meanwhile
+            return

@@ -1,0 +1,214 @@
+"""What lies over the layers of a plan pane: lit-up things, measurements, marks of the tool, scale, north."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPolygonF
+
+from floorcast_app import format
+from floorcast_app.layers.item_shapes import ItemShape, anchor, item_shape
+from floorcast_app.layers.source import PlanSource
+from floorcast_app.selection import Item
+from floorcast_app.tools.gestures import Mark, Point
+from floorcast_app.viewports.plan_frame import (
+    SMALL,
+    Frame,
+    colour,
+    draw_chip,
+    draw_text,
+    lines_path,
+    path_of,
+    pen,
+    round_length,
+)
+from floorcast_app.viewports.plan_observed_views import across
+
+BAR = 150.0  # pixels that the scale bar may take
+MARGIN = 16.0  # pixels from the edges
+COMPASS = 15.0  # pixels, radius
+CROSS = 9.0  # pixels, half the linked cursor
+PIN = 5.0  # pixels, radius of a pin's head
+TICK = 5.0
+
+
+def paint_item(painter: QPainter, frame: Frame, source: PlanSource, item: Item, selected: bool) -> None:
+    """Light up a selected thing, or the one under the pointer."""
+    shape = item_shape(source, item)
+    name = frame.colours.selection if selected else frame.colours.hover
+    if shape.infinite is not None:
+        painter.setPen(pen(name, 1.2, 0.9, (6.0, 4.0)))
+        painter.drawLine(*across(frame, *shape.infinite))
+    painter.save()
+    painter.setTransform(frame.transform(), True)
+    _fill(painter, shape, name, 0.22 if selected else 0.14)
+    painter.setPen(pen(name, 2.4 if selected else 1.8))
+    painter.drawPath(path_of(shape.areas))
+    if shape.infinite is not None or not shape.areas:
+        painter.setPen(pen(name, 4.0 if selected else 3.0))
+        painter.drawPath(lines_path(shape.lines))
+    painter.restore()
+
+
+def _fill(painter: QPainter, shape: ItemShape, name: str, alpha: float) -> None:
+    if shape.areas:
+        painter.fillPath(path_of(shape.areas), colour(name, alpha))
+
+
+def paint_check(painter: QPainter, frame: Frame, ends: tuple[Point, Point], metres: float, tone: str) -> None:
+    """A measurement: a line with ticks and its length."""
+    a, b = (QPointF(*frame.camera.point(*end)) for end in ends)
+    painter.setPen(pen(tone, 1.6))
+    painter.drawLine(a, b)
+    angle = math.atan2(b.y() - a.y(), b.x() - a.x())
+    across_ = QPointF(-math.sin(angle) * TICK, math.cos(angle) * TICK)
+    for end in (a, b):
+        painter.drawLine(end - across_, end + across_)
+    if math.hypot(b.x() - a.x(), b.y() - a.y()) > 2 * TICK:
+        middle = (a + b) / 2
+        text = format.length(metres, frame.look.units)
+        at = (middle.x(), middle.y())
+        draw_text(painter, text, at, SMALL, colour(tone), 600, False, colour(frame.colours.panel, 0.92))
+
+
+def paint_pins(painter: QPainter, frame: Frame, source: PlanSource, items: tuple[Item, ...]) -> None:
+    """A pin on everything that a person corrected."""
+    for item in items:
+        at = anchor(source, item)
+        if at is None:
+            continue
+        x, y = frame.camera.point(*at)
+        painter.setPen(pen(frame.colours.accent, 1.6))
+        painter.drawLine(QPointF(x, y), QPointF(x, y - 2 * PIN))
+        painter.setPen(pen(frame.colours.panel, 1.4))
+        painter.setBrush(colour(frame.colours.accent))
+        painter.drawEllipse(QPointF(x, y - 2 * PIN), PIN, PIN)
+        painter.setBrush(colour(frame.colours.panel))
+        painter.drawEllipse(QPointF(x, y - 2 * PIN), PIN / 4, PIN / 4)
+
+
+def paint_marks(painter: QPainter, frame: Frame, marks: tuple[Mark, ...]) -> None:
+    """What the tool in hand wants drawn."""
+    for mark in marks:
+        _MARKS[mark.kind](painter, frame, mark)
+
+
+def paint_cross(painter: QPainter, frame: Frame, at: Point) -> None:
+    """Where the pointer is in another pane."""
+    x, y = frame.camera.point(*at)
+    painter.setPen(pen(frame.colours.accent, 1.2, 0.9))
+    for dx, dy in ((1, 0), (0, 1)):
+        for sign in (-1, 1):
+            near, far = 3 * sign, CROSS * sign
+            painter.drawLine(QPointF(x + near * dx, y + near * dy), QPointF(x + far * dx, y + far * dy))
+
+
+def paint_scale(painter: QPainter, frame: Frame) -> None:
+    """A bar of a round length at the lower left."""
+    feet = frame.look.units == "ft-in"
+    unit = format.METRES_PER_FOOT if feet else 1.0
+    value = round_length(BAR / frame.camera.scale / unit)
+    width = value * unit * frame.camera.scale
+    x, y = MARGIN, frame.camera.height - MARGIN
+    text = f"{value:g} ft" if feet else (f"{value * 100:g} cm" if value < 1 else f"{value:g} m")
+    box = QRectF(x - 8, y - 24, width + 16, 32)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(colour(frame.colours.panel, 0.82))
+    painter.drawRoundedRect(box, 5, 5)
+    painter.setPen(pen(frame.colours.text, 1.6))
+    painter.drawPolyline([QPointF(x, y - 5), QPointF(x, y), QPointF(x + width, y), QPointF(x + width, y - 5)])
+    draw_text(painter, text, (x + width / 2, y - 11), SMALL, colour(frame.colours.text), 500)
+
+
+def paint_compass(painter: QPainter, frame: Frame, source: PlanSource) -> None:
+    """Which way the survey's +y (its north) lies, at the upper right."""
+    north = source.plan.frame.rotation @ np.array([0.0, 1.0, 0.0])
+    angle = math.degrees(math.atan2(north[0], north[1]))
+    painter.save()
+    painter.translate(frame.camera.width - MARGIN - COMPASS, MARGIN + COMPASS)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(colour(frame.colours.panel, 0.82))
+    painter.drawEllipse(QPointF(0, 0), COMPASS + 5, COMPASS + 5)
+    painter.rotate(angle)
+    for side, alpha in ((-1, 1.0), (1, 0.35)):
+        half = QPolygonF([QPointF(0, -COMPASS), QPointF(side * 6, 5), QPointF(0, 1)])
+        painter.setBrush(colour(frame.colours.text, alpha))
+        painter.drawPolygon(half)
+    painter.translate(0, COMPASS - 5)
+    painter.rotate(-angle)
+    draw_text(painter, "N", (0, 0), 10, colour(frame.colours.text), 600)
+    painter.restore()
+
+
+def paint_hint(painter: QPainter, frame: Frame, text: str) -> None:
+    """What the tool in hand expects, at the lower middle."""
+    draw_chip(painter, frame, text, (frame.camera.width / 2, frame.camera.height - 22), SMALL, strong=False)
+
+
+# ---- marks ----------------------------------------------------------------------------------------------
+
+
+def _role(frame: Frame, mark: Mark) -> str:
+    return str(getattr(frame.colours, mark.role))
+
+
+def _line(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """A line, dashed where it is only an idea."""
+    a, b = (QPointF(*frame.camera.point(*p)) for p in mark.points)
+    painter.setPen(pen(frame.colours.panel, 5.0, 0.7))
+    painter.drawLine(a, b)
+    painter.setPen(pen(_role(frame, mark), 2.4, 1.0, (7.0, 5.0) if mark.kind == "dashes" else None))
+    painter.drawLine(a, b)
+
+
+def _plane(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """All across the pane."""
+    painter.setPen(pen(_role(frame, mark), 1.8))
+    painter.drawLine(*across(frame, mark.axis, mark.points[0][mark.axis]))
+
+
+def _area(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """A polygon with dots at its corners."""
+    points = [QPointF(*frame.camera.point(*p)) for p in mark.points]
+    painter.setPen(pen(_role(frame, mark), 1.8))
+    painter.setBrush(colour(_role(frame, mark), 0.15))
+    painter.drawPolygon(QPolygonF(points))
+    painter.setBrush(colour(_role(frame, mark)))
+    for point in points:
+        painter.drawEllipse(point, 3, 3)
+
+
+def _dot(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """A handle."""
+    painter.setPen(pen(_role(frame, mark), 1.8))
+    painter.setBrush(colour(frame.colours.panel))
+    painter.drawEllipse(QPointF(*frame.camera.point(*mark.points[0])), 4.5, 4.5)
+
+
+def _snap(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """A square: the click will be exact."""
+    x, y = frame.camera.point(*mark.points[0])
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(pen(frame.colours.panel, 4.0, 0.8))
+    painter.drawRect(QRectF(x - 5, y - 5, 10, 10))
+    painter.setPen(pen(_role(frame, mark), 1.8))
+    painter.drawRect(QRectF(x - 5, y - 5, 10, 10))
+
+
+def _text(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """Beside the point, so that the pointer does not hide it."""
+    x, y = frame.camera.point(*mark.points[-1])
+    draw_chip(painter, frame, mark.text, (x, y - 26))
+
+
+_MARKS = {
+    "line": _line,
+    "dashes": _line,
+    "plane": _plane,
+    "area": _area,
+    "dot": _dot,
+    "snap": _snap,
+    "text": _text,
+}
