@@ -47,7 +47,7 @@ def export(
 def load_plan(path: Path) -> FloorPlan:
     """The plan saved in ``path``, a file or a folder that holds one. Raises :class:`InputError`."""
     from floorplan_core import intermediates
-    from floorplan_core.cli.plan import PLAN_FILE
+    from floorplan_core.cli.plan_files import PLAN_FILE
     from floorplan_core.errors import InputError
     from floorplan_core.model import FloorPlan
 

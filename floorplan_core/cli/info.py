@@ -15,7 +15,7 @@ from floorplan_core.cli.options import (
     JsonFlag,
     QuietFlag,
     Resolution,
-    SurveyArgument,
+    SurveyArguments,
     TrajectoryFile,
     resolve_config,
 )
@@ -30,7 +30,7 @@ Rows = list[tuple[str, str]]
 
 def info(
     context: typer.Context,
-    survey: SurveyArgument,
+    survey: SurveyArguments,
     trajectory: TrajectoryFile = None,
     resolution: Resolution = None,
     quick: Annotated[
@@ -47,21 +47,25 @@ def info(
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
-    if is_grid_map(survey):
-        data, rows = describe_map(survey, resolution)
+    if len(survey) == 1 and is_grid_map(survey[0]):
+        data, rows = describe_map(survey[0], resolution)
     else:
         with console.observer() as observer:
             found = describe_survey(survey, trajectory, settings, observer, QUICK_POINTS if quick else None)
         data = {"kind": "survey", **found.as_dict(), "warnings": observer.warnings}
         rows = survey_rows(found, survey)
-    console.table(data, _table(survey, rows))
+    console.table(data, _table(data["name"], rows))
 
 
 def describe_survey(
-    survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver, most_points: int | None
+    survey: list[Path],
+    trajectory: Path | None,
+    config: Config,
+    observer: CommandObserver,
+    most_points: int | None,
 ) -> SurveyInfo:
     """Open and read a survey."""
-    from floorplan_core.cli.plan import announce_compilation
+    from floorplan_core.cli.planning import announce_compilation
     from floorplan_core.plugins import default_registry
     from floorplan_core.readers import open_survey
 
@@ -101,10 +105,10 @@ def describe_map(path: Path, resolution: float | None) -> tuple[dict[str, Any], 
     return data, rows
 
 
-def survey_rows(found: SurveyInfo, path: Path) -> Rows:
+def survey_rows(found: SurveyInfo, paths: list[Path]) -> Rows:
     """The lines of the table."""
     rows = [
-        ("what it is", _kind(found, path)),
+        ("what it is", _kind(found, paths)),
         ("points", _points(found)),
         ("extent", "{:.1f} x {:.1f} m, {:.1f} m high".format(*found.size)),
         ("from, to", f"{_place(found.low)}, {_place(found.high)}"),
@@ -119,9 +123,9 @@ def survey_rows(found: SurveyInfo, path: Path) -> Rows:
     return [*rows, ("assumed", "\n".join(found.assumptions) or "nothing")]
 
 
-def _kind(found: SurveyInfo, path: Path) -> str:
-    size = f", {path.stat().st_size / 1e6:,.1f} MB" if path.is_file() else ""
-    return f"{found.format} survey{size}"
+def _kind(found: SurveyInfo, paths: list[Path]) -> str:
+    size = sum(path.stat().st_size for path in paths if path.is_file())
+    return f"{found.format} survey" + (f", {size / 1e6:,.1f} MB" if size else "")
 
 
 def _points(found: SurveyInfo) -> str:
@@ -169,11 +173,11 @@ def _storeys(found: SurveyInfo) -> str:
     return "\n".join(lines) or "none found"
 
 
-def _table(survey: Path, rows: Rows) -> Any:
+def _table(name: str, rows: Rows) -> Any:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=survey.name or str(survey), show_header=False)
+    table = Table(title=name, show_header=False)
     table.add_column(no_wrap=True)
     table.add_column(overflow="fold")
     for name, value in rows:

@@ -23,10 +23,18 @@ Assignments = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="STAGE.FIELD=VALUE", help="Change one setting; may be repeated."),
 ]
-SurveyArgument = Annotated[
-    Path,
+SurveyArguments = Annotated[
+    list[Path],
     typer.Argument(
-        metavar="INPUT", help="A point cloud, a folder of scans, or a grid map.", show_default=False
+        metavar="INPUT",
+        help="A point cloud, a folder of scans, or a grid map; several files are read as one survey.",
+        show_default=False,
+    ),
+]
+StoreyNumber = Annotated[
+    int | None,
+    typer.Option(
+        "--storey", metavar="N", min=0, help="Only this storey; 0 is the lowest.", show_default="all"
     ),
 ]
 TrajectoryFile = Annotated[

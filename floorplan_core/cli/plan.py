@@ -1,11 +1,15 @@
-"""``floorcast plan``: the main job, a reconstruction in, a floor plan out."""
+"""``floorcast plan``: the main job, a reconstruction in, a floor plan out, or one for each storey.
+
+The files of the lowest storey (or of the one that ``--storey`` names) lie in the output folder itself. Where
+there are several, every storey also has a folder of its own, ``storey-0`` for the lowest.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -18,27 +22,33 @@ from floorplan_core.cli.options import (
     OutFolder,
     QuietFlag,
     Resolution,
-    SurveyArgument,
+    StoreyNumber,
+    SurveyArguments,
     TrajectoryFile,
     resolve_config,
 )
+from floorplan_core.cli.plan_files import (
+    DRAWINGS,
+    LABEL_IMAGE,
+    PICTURES,
+    STOREY_FOLDER,
+    save_run,
+    write_plan,
+    write_report,
+)
+from floorplan_core.cli.planning import make_any_plans, replan, stages_of
 
 if TYPE_CHECKING:
-    from floorplan_core.config import Config
-    from floorplan_core.model import FloorPlan, Reconstruction
-
-PLAN_FILE = "plan.floorplan"
-DRAWINGS = ("plan.geojson", "plan.svg")
-PICTURES = ("planes.png", "occupancy.png", "plan.png")
-LABEL_IMAGE = "labels.png"
+    from floorplan_core.model import FloorPlan
 
 
 def plan(
     context: typer.Context,
-    survey: SurveyArgument,
+    survey: SurveyArguments,
     out: OutFolder,
     trajectory: TrajectoryFile = None,
     resolution: Resolution = None,
+    storey: StoreyNumber = None,
     pictures: Annotated[bool, typer.Option(help="Write the paper's three figures as PNG too.")] = True,
     labels_png: Annotated[
         bool, typer.Option("--labels-png", help="Write the regions as a label image, labels.png, too.")
@@ -61,203 +71,106 @@ def plan(
 
     started = perf_counter()
     console = Console(context, as_json=as_json, quiet=quiet)
-    stages = _stages_of(survey) if from_stage else None
+    stages = stages_of(_only(survey)) if from_stage else None
     settings = resolve_config(config, set_, stages)
+    names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
         if from_stage and stages:
-            made, clock = replan(stages, from_stage, settings, observer)
+            plans = iter([replan(stages, from_stage, settings, observer)])
         else:
-            made, clock = make_any_plan(survey, trajectory, resolution, settings, observer)
-        names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
-        clock["export"] = write_plan(made, staging, names, observer)
-        if save_stages:
-            _save_stages(made, observer, staging)
-        clock["total"] = perf_counter() - started
-        report = _write_report(made, clock, observer, staging)
+            plans = make_any_plans(survey, trajectory, resolution, storey, settings, observer)
+        writer = Writer(staging, names, save_stages, observer, started)
+        for made, clock in plans:
+            writer.write(made, clock)
+        writer.lift_first()
         files = sorted(str(p.relative_to(staging)) for p in staging.rglob("*") if p.is_file())
-    counts = {k: report[k] for k in ("regions", "doors", "planes", "points")}
-    data = {
-        "out": str(out),
-        "files": files,
-        **counts,
-        "seconds": clock["total"],
-        "warnings": report["warnings"],
-    }
-    console.result(data, summary(made, clock["total"], out, files))
-
-
-def make_any_plan(
-    survey: Path, trajectory: Path | None, resolution: float | None, config: Config, observer: CommandObserver
-) -> tuple[FloorPlan, dict[str, float]]:
-    """The plan of an occupancy grid map or of a reconstruction, by what ``survey`` is."""
-    from floorplan_core.errors import UsageError
-    from floorplan_core.readers.grid_map import is_grid_map
-
-    if is_grid_map(survey):
-        if trajectory is not None or observer.keep_results:
-            raise UsageError(f"{survey.name} is a grid map: --trajectory and --save-stages are for surveys.")
-        return make_map_plan(survey, resolution, config, observer)
-    if resolution is not None:
-        raise UsageError(f"--resolution is for pictures of grid maps; {survey.name} is none.")
-    return make_plan(survey, trajectory, config, observer)
-
-
-def make_map_plan(
-    path: Path, resolution: float | None, config: Config, observer: CommandObserver
-) -> tuple[FloorPlan, dict[str, float]]:
-    """Read an occupancy grid map and run its pipeline; returns the plan and the seconds spent in reading."""
-    from floorplan_core.readers.grid_map import read_grid_map
-
-    started = perf_counter()
-    grid_map = read_grid_map(path, resolution)
-    clock = {"read": perf_counter() - started}
-    for sentence in grid_map.assumptions:
-        observer.console.message(sentence)
-    announce_compilation(observer)
-    from floorplan_core.grid_pipeline import plan_grid_map  # after reading: bad input is answered at once
-
-    return plan_grid_map(grid_map, config, observer), clock
-
-
-def make_plan(
-    survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver
-) -> tuple[FloorPlan, dict[str, float]]:
-    """Read ``survey`` and run the pipeline; returns the plan and the seconds spent in reading."""
-    started = perf_counter()
-    reconstruction = open_input(survey, trajectory, config, observer)
-    clock = {"read": perf_counter() - started}
-    announce_compilation(observer)
-    from floorplan_core.pipeline import process  # after opening: bad input is answered at once
-
-    return process(timed_chunks(reconstruction, clock), config, observer), clock
-
-
-def announce_compilation(observer: CommandObserver) -> None:
-    """Say why the first run takes longer: no kernels of this version are compiled yet."""
-    from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
-
-    use_kernel_cache()
-    if not kernels_compiled():
-        observer.console.message("The first run compiles the kernels, which takes about a minute.")
-
-
-def replan(
-    stages: Path, from_stage: str, config: Config, observer: CommandObserver
-) -> tuple[FloorPlan, dict[str, float]]:
-    """Begin again at a stage; returns the plan and the seconds spent in reading what came before."""
-    from floorplan_core.restart import restart
-
-    started = perf_counter()
-    plan = restart(stages, from_stage, config, observer)
-    return plan, {"read": perf_counter() - started - sum(plan.seconds.values())}
-
-
-def _stages_of(survey: Path) -> Path:
-    """The folder of stages in (or at) ``survey``."""
-    from floorplan_core.restart import STAGE_FOLDER
-
-    inside = survey / STAGE_FOLDER
-    return inside if inside.is_dir() else survey
-
-
-def open_input(
-    survey: Path, trajectory: Path | None, config: Config, observer: CommandObserver
-) -> Reconstruction:
-    """Open ``survey`` with the readers of all plugins; what had to be guessed is shown."""
-    from floorplan_core.plugins import default_registry
-    from floorplan_core.readers import open_survey
-
-    registry = default_registry()
-    opened = open_survey(survey, trajectory, config.input, observer, registry)
-    for sentence in opened.assumptions:
-        observer.console.message(sentence)
-    return opened
-
-
-def timed_chunks(reconstruction: Reconstruction, clock: dict[str, float]) -> Reconstruction:
-    """The same survey; the seconds that its reader takes for its chunks are added to ``clock["read"]``."""
-    from collections.abc import Iterator
-
-    from floorplan_core.model import PointChunk
-
-    def chunks() -> Iterator[PointChunk]:
-        source = reconstruction.chunks()
-        while True:
-            started = perf_counter()
-            chunk = next(source, None)
-            clock["read"] += perf_counter() - started
-            if chunk is None:
-                return
-            yield chunk
-
-    return replace(reconstruction, chunks=chunks)
-
-
-def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: CommandObserver) -> float:
-    """Write ``plan`` losslessly and with the exporter for each of ``names``; returns the seconds it took."""
-    from floorplan_core import intermediates
-    from floorplan_core.files import writing
-
-    started = perf_counter()
-    observer.stage_started("export", len(names) + 1)
-    with writing(folder.parent / PLAN_FILE):
-        intermediates.save(plan, folder / PLAN_FILE)
-    for done, name in enumerate(names, start=1):
-        observer.check_cancelled()
-        observer.progress("export", done)
-        _export(plan, folder / name, observer)
     seconds = perf_counter() - started
-    observer.stage_finished("export", seconds)
-    return seconds
+    console.result(
+        writer.summary(out, files, seconds), summary([d.plan for d in writer.done], seconds, out, files)
+    )
 
 
-def _export(plan: FloorPlan, path: Path, observer: CommandObserver) -> None:
-    """Write one file; a picture whose plugin fails is left out with a warning, the drawings are a must."""
-    from floorplan_core.files import writing
-    from floorplan_core.plugin_guard import PluginFailed
-    from floorplan_core.plugins import default_registry
+@dataclass(frozen=True)
+class Written:
+    """One plan, and the report of its run."""
 
-    try:
-        with writing(path.parent.parent / path.name):
-            default_registry().exporter(Path(path.name)).write(plan, path)
-    except PluginFailed as error:
-        if path.name in DRAWINGS:
-            raise
-        path.unlink(missing_ok=True)
-        observer.warning(str(error))
+    plan: FloorPlan
+    report: dict[str, Any]
 
 
-def _save_stages(plan: FloorPlan, observer: CommandObserver, staging: Path) -> None:
-    from floorplan_core.files import writing
-    from floorplan_core.restart import STAGE_FOLDER, save_stages
+class Writer:
+    """Writes plan after plan, each into the folder of its storey."""
 
-    with writing(staging.parent / STAGE_FOLDER):
-        save_stages(observer.results, plan, staging / STAGE_FOLDER)
+    def __init__(
+        self, staging: Path, names: tuple[str, ...], stages: bool, observer: CommandObserver, started: float
+    ) -> None:
+        self.done: list[Written] = []
+        self._staging, self._names, self._stages = staging, names, stages
+        self._observer, self._started = observer, started
+
+    def write(self, plan: FloorPlan, clock: dict[str, float]) -> None:
+        """Write one plan with its report."""
+        folder = self._folder(plan)
+        folder.mkdir()
+        times = {**clock, "export": write_plan(plan, folder, self._names, self._observer)}
+        if self._stages:
+            save_run(plan, self._observer, folder)
+        self._observer.results.clear()  # what the next storey makes is its own
+        times["total"] = perf_counter() - self._started
+        self.done.append(Written(plan, write_report(plan, times, self._observer, folder)))
+
+    def lift_first(self) -> None:
+        """Put the files of the first plan where everybody looks; the only plan needs no folder of its own."""
+        import shutil
+
+        first = self._folder(self.done[0].plan)
+        shutil.copytree(first, self._staging, dirs_exist_ok=True)
+        if len(self.done) == 1:
+            shutil.rmtree(first)
+
+    def summary(self, out: Path, files: list[str], seconds: float) -> dict[str, Any]:
+        """The result for ``--json``: that of the first plan, and what each storey holds."""
+        first = self.done[0].report
+        counts = ("regions", "doors", "planes", "points")
+        storeys = [{"storey": d.plan.storey, **{k: d.report[k] for k in counts}} for d in self.done]
+        warnings = list(dict.fromkeys(w for d in self.done for w in d.report["warnings"]))
+        return {
+            "out": str(out),
+            "files": files,
+            **{k: first[k] for k in counts},
+            "storeys": storeys,
+            "seconds": seconds,
+            "warnings": warnings,
+        }
+
+    def _folder(self, plan: FloorPlan) -> Path:
+        return self._staging / STOREY_FOLDER.format(plan.storey)
 
 
-def _write_report(
-    plan: FloorPlan, clock: dict[str, float], observer: CommandObserver, folder: Path
-) -> dict[str, object]:
-    from floorplan_core.files import writing
-    from floorplan_core.plugins import default_registry
-    from floorplan_core.report import as_json, run_report
+def _only(surveys: list[Path]) -> Path:
+    from floorplan_core.errors import UsageError
 
-    failed = default_registry().failures()
-    for sentence in failed:
-        observer.warning(sentence)
-    report = run_report(plan, clock, [*observer.warnings, *failed])
-    with writing(folder.parent / "report.json"):
-        (folder / "report.json").write_text(as_json(report), encoding="utf-8")
-    return report
+    if len(surveys) != 1:
+        raise UsageError(f"--from takes the folder of one run (given {len(surveys)} inputs).")
+    return surveys[0]
 
 
-def summary(plan: FloorPlan, seconds: float, out: Path, files: list[str]) -> str:
-    """What was made, in two sentences and a list of files."""
+def summary(plans: list[FloorPlan], seconds: float, out: Path, files: list[str]) -> str:
+    """What was made: a line for each storey, and a list of files."""
+    lines = [_contents(plan) for plan in plans]
+    if len(plans) > 1:
+        lines = [f"Storey {plan.storey}: {line}" for plan, line in zip(plans, lines, strict=True)]
+        lines.insert(0, f"{plans[0].source}: {len(plans)} storeys, in {seconds:.1f} s.")
+    else:
+        lines = [f"{plans[0].source}: {lines[0]}, in {seconds:.1f} s."]
+    return "\n".join([*lines, f"Wrote into {out}: {', '.join(files)}."])
+
+
+def _contents(plan: FloorPlan) -> str:
     labels = [region.label for region in plan.regions]
     kinds = ", ".join(
         f"{labels.count(label)} {label}{'s' * (labels.count(label) != 1)}" for label in sorted(set(labels))
     )
     area = sum(region.area for region in plan.regions)
     doors = f"{len(plan.doors)} door{'s' * (len(plan.doors) != 1)}"
-    head = f"{plan.source}: {kinds or 'no regions'}, {doors}, {area:.1f} m2, in {seconds:.1f} s."
-    return "\n".join([head, f"Wrote into {out}: {', '.join(files)}."])
+    return f"{kinds or 'no regions'}, {doors}, {area:.1f} m2"

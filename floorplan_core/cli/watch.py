@@ -18,7 +18,8 @@ from floorplan_core.cli.options import (
     JsonFlag,
     OutFolder,
     QuietFlag,
-    SurveyArgument,
+    StoreyNumber,
+    SurveyArguments,
     TrajectoryFile,
     resolve_config,
 )
@@ -35,12 +36,13 @@ MAX_FRAMES = 12  # of the film strip; a longer run shows every second, fourth, .
 
 def watch(
     context: typer.Context,
-    survey: SurveyArgument,
+    survey: SurveyArguments,
     out: OutFolder,
     every: Annotated[
         float, typer.Option("--every", metavar="SECONDS", min=0.1, help="Run time between two plans.")
     ] = 20.0,
     trajectory: TrajectoryFile = None,
+    storey: StoreyNumber = None,
     config: ConfigFile = None,
     set_: Assignments = None,
     as_json: JsonFlag = False,
@@ -48,7 +50,7 @@ def watch(
     debug: DebugFlag = False,
 ) -> None:
     """Replay a run and write a numbered plan each interval, timeline.json and a film strip."""
-    from floorplan_core.cli.plan import announce_compilation, open_input
+    from floorplan_core.cli.planning import announce_compilation, open_input
     from floorplan_core.errors import NoPlanError
     from floorplan_core.files import output_folder
 
@@ -60,7 +62,7 @@ def watch(
         announce_compilation(observer)
         from floorplan_core.pipeline import FloorPlanner  # after opening: bad input is answered at once
 
-        recorder = Recorder(out, observer)
+        recorder = Recorder(out, observer, storey or 0)
         planner = FloorPlanner(settings, observer, run.name, run.local_frame)
         recorder.record(run, planner, every)
         if not recorder.film.frames():
@@ -74,12 +76,12 @@ def watch(
 class Recorder:
     """Writes what a run gives, interval by interval; its files and the timeline so far appear together."""
 
-    def __init__(self, out: Path, observer: CommandObserver) -> None:
+    def __init__(self, out: Path, observer: CommandObserver, storey: int) -> None:
         from floorplan_core.plugins import default_registry
 
         self.timeline: list[dict[str, Any]] = []
         self.film = Film()
-        self._out, self._observer = out, observer
+        self._out, self._observer, self._storey = out, observer, storey
         self._exporters = {s: default_registry().exporter(Path(f"plan{s}")) for s in SUFFIXES}
 
     def record(self, run: Reconstruction, planner: FloorPlanner, every: float) -> None:
@@ -88,7 +90,7 @@ class Recorder:
 
         for interval in intervals(run, every):
             self._observer.check_cancelled()
-            seconds, plan, note = _advance(planner, interval, run)
+            seconds, plan, note = _advance(planner, interval, run, self._storey)
             entry = timeline_entry(interval, plan, seconds, note)
             self.timeline.append(entry)
             if plan is not None:
@@ -119,7 +121,7 @@ class Recorder:
 
 
 def _advance(
-    planner: FloorPlanner, interval: Interval, run: Reconstruction
+    planner: FloorPlanner, interval: Interval, run: Reconstruction, storey: int
 ) -> tuple[tuple[float, float], FloorPlan | None, str]:
     """Integrate the interval and plan; returns the seconds of both, and the plan or why there is none yet."""
     from floorplan_core.errors import NoPlanError
@@ -130,7 +132,10 @@ def _advance(
     integrated = perf_counter()
     plan, note = None, ""
     try:
-        plan = planner.plan()
+        if storey < len(planner.storeys()):
+            plan = planner.plan(storey=storey)
+        else:
+            note = f"Storey {storey} was not reached yet."
     except NoPlanError as error:
         note = str(error)
     return (integrated - started, perf_counter() - integrated), plan, note
