@@ -13,10 +13,9 @@ taken from the map instead, and a warning says so.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,9 +36,14 @@ from floorplan_core.model import (
     Region,
     WallPoints,
 )
+from floorplan_core.model.corrections import Correction
+from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import RegionClassifier, find_classifier
 from floorplan_core.stages.candidates import pair_planes
+from floorplan_core.stages.corrections import Remarks, in_plan
+from floorplan_core.stages.corrections_doors import correct_doors
+from floorplan_core.stages.corrections_regions import Surroundings, correct_names, correct_shapes
 from floorplan_core.stages.grid_map import MapFloor, find_floor
 from floorplan_core.stages.grid_map_doors import grid_doors
 from floorplan_core.stages.grid_map_outlines import askew_share, outline, outline_region
@@ -55,11 +59,12 @@ from floorplan_core.stages.grid_map_spaces import (
 )
 from floorplan_core.stages.grid_map_walls import Boundary, find_boundary, wall_planes, wall_segments
 from floorplan_core.stages.labels import PaperClassifier, label_regions
+from floorplan_core.stages.region_names import RegionNames
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.steps import StageRunner, StepMemory
 
-T = TypeVar("T")
 Float = NDArray[np.float64]
 
 _LEFT = 0.03  # of a space: less that no rectangle covers are niches and recesses of doors
@@ -78,65 +83,119 @@ class _Solved:
 
 
 def plan_grid_map(
-    grid_map: GridMap, config: Config | None = None, observer: Observer | None = None
+    grid_map: GridMap,
+    config: Config | None = None,
+    observer: Observer | None = None,
+    corrections: Sequence[Correction] = (),
+    memory: StepMemory | None = None,
+    names: RegionNames | None = None,
 ) -> FloorPlan:
-    """The floor plan of a grid map; raises :class:`NoPlanError` where there is none."""
+    """The floor plan of a grid map; raises :class:`NoPlanError` where there is none.
+
+    :param corrections: what a person said against the machine; walls of a map cannot be corrected.
+    :param memory: what an earlier plan of the same map made; only what depends on a change is made again.
+    :param names: gives the regions the names that they had before.
+    """
     config, observer = config or Config(), observer or Observer()
-    seconds: dict[str, float] = {}
+    stage = StageRunner(observer, memory=memory)
 
-    def stage(name: str, work: Callable[[], T]) -> T:
-        observer.check_cancelled()
-        observer.stage_started(name)
-        began = time.perf_counter()
-        result = work()
-        took = time.perf_counter() - began
-        seconds[name] = seconds.get(name, 0.0) + took
-        observer.stage_finished(name, took, result)
-        return result
-
-    ground = stage("frame", lambda: find_floor(grid_map, config))
-    passages, spaces = stage("doors", lambda: find_passages(ground.floor, ground.grid.cell, config.maps))
-    grid = replace(ground.grid, universe=(spaces > 0) & (ground.grid.states == FREE))
-    boundary = stage("segments", lambda: find_boundary(spaces, ground.floor, grid))
-    segments, rows = stage("segments", lambda: wall_segments(boundary, grid, config))
-    segments, planes = stage("planes", lambda: wall_planes(segments, grid.cell, config))
-    doors, askew = stage("doors", lambda: grid_doors(passages, planes, ground.floor, grid, config.doors))
+    ground = stage("frame", lambda: find_floor(grid_map, config), config.frame, config.maps)
+    say = stage.correct("frame", lambda: in_plan(corrections, ground.frame), ground, tuple(corrections))
+    passages, spaces = stage(
+        "doors", lambda: find_passages(ground.floor, ground.grid.cell, config.maps), ground, config.maps
+    )
+    grid = stage.correct("grid", lambda: _with_universe(ground.grid, spaces), ground, spaces)
+    boundary = stage("segments", lambda: find_boundary(spaces, ground.floor, grid), spaces, ground, grid)
+    segments, rows = stage(
+        "segments",
+        lambda: wall_segments(boundary, grid, config),
+        boundary,
+        grid,
+        config.segments,
+        config.planes,
+    )
+    segments, planes = stage(
+        "planes", lambda: wall_planes(segments, grid.cell, config), segments, config.planes, config.segments
+    )
+    machine, askew = stage(
+        "doors",
+        lambda: grid_doors(passages, planes, ground.floor, grid, config.doors),
+        *(passages, planes, ground, grid, config.doors),
+    )
+    doors, _, said = stage.correct(
+        "doors",
+        lambda: correct_doors(machine, planes, say.doors, config.doors, lambda: machine),
+        *(machine, planes, say.doors, config.doors),
+    )
     problems = stage(
         "candidates",
         lambda: space_problems(spaces, ground.floor, grid, boundary, segments, rows, planes, config),
+        *(spaces, ground, grid, boundary, segments, rows, planes, config),
     )
-    solved = stage("cover", lambda: [_solve(p, config, observer) for p in problems])
+    solved = stage("cover", lambda: [_solve(p, config, observer) for p in problems], problems, config)
     sets = [s.candidates for s in solved]
     cover, first = join_covers([s.cover for s in solved], sets, problems, grid.states.shape)
-    regions, drawn = stage("regions", lambda: _regions(solved, first, doors, grid, config))
-    regions, doors = stage("regions", lambda: connect_doors(regions, doors))
+    regions, drawn = stage(
+        "regions", lambda: _regions(solved, first, doors, grid, config), solved, doors, grid, config
+    )
+    all_planes = stage.correct("planes", lambda: _all_planes(planes, solved), planes, solved)
+    found = (all_planes, segments, doors, grid)
+    regions, all_planes, remarks = stage.correct(
+        "shapes",
+        lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
+        *(regions, say.shapes, *found, config.regions),
+    )
+    said += remarks + _walls_stay(say.walls)
+    regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
     if not regions:
         raise NoPlanError(
             f"No region came out of {grid_map.name}: no enclosed free space is larger than "
             f"{config.regions.min_area:g} m2; check the resolution and the thresholds of the map."
         )
-    regions = stage("labels", lambda: label_regions(regions, _classifier(config), config))
-    warnings = _warnings(ground, regions, drawn, askew, config)
+    regions = stage("labels", lambda: label_regions(regions, _classifier(config), config), regions, config)
+    if names is not None:
+        regions, doors = names(regions, doors, 0)
+    regions, remarks = correct_names(regions, say.names)
+    said += remarks
+    warnings = (*said.warnings, *_warnings(ground, regions, drawn, askew, config))
     for text in warnings:
         observer.warning(text)
     return FloorPlan(
         ground.frame,
         LocalFrame(),
         segments,
-        _all_planes(planes, solved),
+        all_planes,
         doors,
         grid,
         join_candidates(sets),
         cover,
         regions,
-        _wall_points(boundary, grid),
+        stage.correct("points", lambda: _wall_points(boundary, grid), boundary, grid),
         np.zeros((0, 2)),
         grid_map.name,
         int(np.count_nonzero(grid_map.states)),
         config,
         warnings,
-        seconds,
+        stage.seconds,
         raster=grid_map.raster,
+        corrected=by_hand(all_planes, doors, regions),
+        machine=dict(reversed(said.machine)),
+    )
+
+
+def _with_universe(grid: OccupancyGrid, spaces: NDArray[np.int32]) -> OccupancyGrid:
+    """The grid with the free cells of the spaces as what the cover has to explain."""
+    return replace(grid, universe=(spaces > 0) & (grid.states == FREE))
+
+
+def _walls_stay(corrections: Sequence[Correction]) -> Remarks:
+    """A map's spaces are its cells: walls by hand would not change them."""
+    if not corrections:
+        return Remarks()
+    return Remarks(
+        warnings=(
+            f"{len(corrections)} corrections of walls have no effect on a grid map: split or merge regions.",
+        )
     )
 
 

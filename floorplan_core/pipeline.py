@@ -32,6 +32,7 @@ from floorplan_core.model import (
 )
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
@@ -320,14 +321,6 @@ class FloorPlanner:
         from floorplan_core.plugins import find_classifier
 
         return find_classifier(self.config.labels.classifier)
-
-
-def by_hand(
-    planes: Sequence[LayoutPlane], doors: Sequence[Door], regions: Sequence[Region]
-) -> tuple[tuple[str, str], ...]:
-    """(kind, id) of everything that a person changed."""
-    kinds = (("plane", planes), ("door", doors), ("region", regions))
-    return tuple((kind, thing.id) for kind, things in kinds for thing in things if thing.by_hand)
 
 
 def process(

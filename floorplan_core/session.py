@@ -17,6 +17,7 @@ from floorplan_core.errors import UsageError
 from floorplan_core.model import GridMap, PointChunk, Reconstruction
 from floorplan_core.model.corrections import Correction
 from floorplan_core.observer import Observer
+from floorplan_core.stages.region_names import NamesOfSession
 from floorplan_core.steps import StepMemory
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ class PlanningSession:
         self._planner: FloorPlanner | None = None
         self._read_seconds = 0.0
         self._memory = StepMemory()
+        self._names = NamesOfSession()
 
     @classmethod
     def open(
@@ -82,7 +84,6 @@ class PlanningSession:
         if self.ready:
             return
         from floorplan_core.pipeline import FloorPlanner
-        from floorplan_core.stages.region_names import NamesOfSession
 
         survey = self.reconstruction
         planner = FloorPlanner(self._read_with, observer, survey.name, survey.local_frame)
@@ -97,7 +98,7 @@ class PlanningSession:
             done += len(chunk.points)
             observer.progress("read", done)
         planner.map.settle()
-        planner.names = NamesOfSession()
+        planner.names = self._names
         self._read_seconds = time.perf_counter() - began
         observer.stage_finished("read", self._read_seconds)
         self._planner, self.ready = planner, True
@@ -110,7 +111,7 @@ class PlanningSession:
         if self._grid_map is not None:
             from floorplan_core.grid_pipeline import plan_grid_map
 
-            return plan_grid_map(self._grid_map, config, observer)
+            return plan_grid_map(self._grid_map, config, observer, corrections, self._memory, self._names)
         planner = self._planner
         if planner is None or not self.ready:
             raise UsageError("The survey was not read yet.")

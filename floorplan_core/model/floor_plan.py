@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -87,3 +88,11 @@ def regions_mask(regions: tuple[Region, ...], grid: OccupancyGrid) -> NDArray[np
     for region in regions:
         mask |= polygon_mask(region.polygon, grid.origin, grid.cell, grid.states.shape)
     return mask
+
+
+def by_hand(
+    planes: Sequence[LayoutPlane], doors: Sequence[Door], regions: Sequence[Region]
+) -> tuple[tuple[str, str], ...]:
+    """(kind, id) of everything that a person changed."""
+    kinds = (("plane", planes), ("door", doors), ("region", regions))
+    return tuple((kind, thing.id) for kind, things in kinds for thing in things if thing.by_hand)
