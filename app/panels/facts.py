@@ -19,6 +19,24 @@ from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane, LayoutSeg
 
 Words = Callable[[str], str]
 
+EVIDENCE = {  # the stages' words of evidence as sentences
+    "passage": "Free space runs through it",
+    "path": "The sensor went through it",
+    "lintel": "Wall was seen above it",
+    "wall on both sides": "Wall was seen on both sides of it",
+    "corner": "Wall was seen on one side of it, the other is a corner",
+    "both faces": "It was seen from both sides of the wall",
+    "by hand": "A person says so",
+    "corridor opens into a hall": "A corridor opens into a hall",
+    "narrow between two spaces": "It is narrow between two wide spaces",
+    "reaches ceiling": "It reaches the ceiling",
+    "looked over": "The sensor looked over it: there is air above",
+    "above furniture": "It reaches above furniture",
+    "long, top not seen": "It is long, and its top was not seen",
+    "low": "It is low",
+    "straight boundary of free space": "Free space ends there along a straight line",
+}
+
 
 @dataclass(frozen=True)
 class Fact:
@@ -204,7 +222,7 @@ def _door(plan: FloorPlan, door: Door, units: str, words: Words) -> Portrait:
     why = Section(
         words("Why it is there"),
         (
-            *(Fact("", words(word)) for word in door.evidence),
+            *(Fact("", words(EVIDENCE.get(word, word))) for word in door.evidence),
             Fact(words("Confidence"), percent(door.confidence), setting="doors.min_confidence"),
         ),
     )
@@ -296,7 +314,7 @@ def _segment(plan: FloorPlan, segment: LayoutSegment, units: str, words: Words) 
         words("Why it is there"),
         (
             Fact(words("Taken for"), words("wall") if segment.structural else words("furniture")),
-            *(Fact("", words(word)) for word in segment.evidence),
+            *(Fact("", words(EVIDENCE.get(word, word))) for word in segment.evidence),
         ),
     )
     made = Section(
