@@ -1,0 +1,87 @@
+"""Two areas over time: what was seen, and what was predicted on top of it. A click goes to that moment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QBrush, QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QWidget
+
+from floorcast_app import theme
+
+MARGIN = 8.0  # px left and right, as much as half a slider's handle
+
+
+class Sparkline(QWidget):
+    """``values``: (time, seen m2, predicted m2) in order of time."""
+
+    picked = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.values: tuple[tuple[float, float, float], ...] = ()
+        self.at = -1
+        self.setMinimumHeight(24)
+
+    def sizeHint(self) -> QSize:
+        return QSize(400, 48)
+
+    def show_values(self, values: Sequence[tuple[float, float, float]], at: int) -> None:
+        """Draw ``values``, with a mark at index ``at``."""
+        self.values, self.at = tuple(values), at
+        self.update()
+
+    def x_of(self, index: int) -> float:
+        """Pixel of a moment."""
+        first, last = self.values[0][0], self.values[-1][0]
+        share = (self.values[index][0] - first) / (last - first) if last > first else 0.5
+        return MARGIN + share * (self.width() - 2 * MARGIN)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self._pick(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            self._pick(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if not self.values:
+            return
+        holds = theme.colours()
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        top = max(seen + predicted for _, seen, predicted in self.values) or 1.0
+        seen = [s for _, s, _ in self.values]
+        both = [s + p for _, s, p in self.values]
+        self._area(painter, both, seen, top, QBrush(QColor(holds.predicted), Qt.BrushStyle.BDiagPattern))
+        self._area(painter, seen, [0.0] * len(seen), top, QBrush(QColor(holds.accent_soft)))
+        painter.setPen(QPen(QColor(holds.accent), 1.5))
+        painter.drawPolyline(self._line(seen, top))
+        if 0 <= self.at < len(self.values):
+            x = self.x_of(self.at)
+            painter.setPen(QPen(QColor(holds.text), 1))
+            painter.drawLine(QPointF(x, 0), QPointF(x, self.height()))
+            y = self._y(seen[self.at], top)
+            painter.setBrush(QColor(holds.accent))
+            painter.drawEllipse(QRectF(x - 3, y - 3, 6, 6))
+        painter.end()
+
+    def _area(
+        self, painter: QPainter, upper: Sequence[float], lower: Sequence[float], top: float, brush: QBrush
+    ) -> None:
+        outline = [*self._line(upper, top).toList(), *reversed(self._line(lower, top).toList())]
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(brush)
+        painter.drawPolygon(QPolygonF(outline))
+
+    def _line(self, heights: Sequence[float], top: float) -> QPolygonF:
+        return QPolygonF([QPointF(self.x_of(i), self._y(h, top)) for i, h in enumerate(heights)])
+
+    def _y(self, value: float, top: float) -> float:
+        return self.height() - 2 - value / top * (self.height() - 8)
+
+    def _pick(self, event: QMouseEvent) -> None:
+        if self.values:
+            x = event.position().x()
+            self.picked.emit(min(range(len(self.values)), key=lambda i: abs(self.x_of(i) - x)))
