@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from floorcast_app.layers.source import PlanSource
 
+DETAIL = 0.03  # metres: finer bends of the path are left out
+FEWEST = 3  # points of a path that can be simplified
+
 
 @dataclass(frozen=True)
 class PointsLayer:
@@ -33,5 +36,10 @@ def points_layer(source: PlanSource) -> PointsLayer:
 
 
 def trajectory_layer(source: PlanSource) -> TrajectoryLayer:
-    """The path."""
-    return TrajectoryLayer(source.plan.trajectory)
+    """The path without the points that nobody would see: a robot logs ten a second."""
+    import shapely
+
+    xy = source.plan.trajectory
+    if len(xy) < FEWEST:
+        return TrajectoryLayer(xy)
+    return TrajectoryLayer(shapely.get_coordinates(shapely.simplify(shapely.LineString(xy), DETAIL)))

@@ -8,8 +8,9 @@ the distance to a line in pixels. A QGraphicsView of one item for each line took
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -51,6 +52,7 @@ from floorcast_app.workbench import Workbench
 
 HIT = 6.0  # pixels around a line within which it is hit
 CLICK = 4.0  # pixels that a click may move
+SETTLE = 60  # ms that other panes than the one under the pointer wait for the camera to rest
 AROUND_ITEM = 1.8  # how much more than a thing is shown when it is zoomed to
 SMALLEST_SPAN = 2.0  # metres: small things are not zoomed to more closely
 KEYS = {Qt.Key.Key_Return: "Enter", Qt.Key.Key_Enter: "Enter", Qt.Key.Key_Backspace: "Backspace"}
@@ -75,6 +77,9 @@ class PlanCanvas(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._drawing: Drawing | None = None
         self._base: QPixmap | None = None
+        self._base_camera: Camera | None = None  # that of the base
+        self._settle = QTimer(self, singleShot=True, interval=SETTLE)
+        self._settle.timeout.connect(self._refresh)
         self._press: tuple[QPointF, Qt.MouseButton] | None = None
         self._last = QPointF()
         self._moved = False
@@ -159,7 +164,14 @@ class PlanCanvas(QWidget):
         self._refresh()
 
     def _look_changed(self, before: Look, after: Look) -> None:
-        self._refresh()
+        """Other panes than the one that is moved shift their picture and paint it anew when the camera rests."""
+        moved_only = replace(before, centre=after.centre, span=after.span) == after
+        if moved_only and self._base is not None and not self.underMouse():
+            if not self._settle.isActive():
+                self._settle.start()
+            self.update()
+        else:
+            self._refresh()
 
     def _theme_changed(self, name: str) -> None:
         self._refresh()
@@ -194,6 +206,7 @@ class PlanCanvas(QWidget):
         return item_shape(source_of(plan), item).bounds if plan is not None else None
 
     def _refresh(self) -> None:
+        self._settle.stop()
         self._base = None
         self.update()
 
@@ -203,15 +216,26 @@ class PlanCanvas(QWidget):
         ratio = self.devicePixelRatioF()
         frame = Frame(self.camera, theme.colours(), self._look(), ratio)
         if self._base is None or self._base.size() != self.size() * ratio:
-            self._base = QPixmap(self.size() * ratio)
+            self._base, self._base_camera = QPixmap(self.size() * ratio), frame.camera
             self._base.setDevicePixelRatio(ratio)
             painter = QPainter(self._base)
             self._paint_ground(painter, frame)
             painter.end()
         painter = QPainter(self)
-        painter.drawPixmap(0, 0, self._base)
+        if self._base_camera in (None, frame.camera):
+            painter.drawPixmap(0, 0, self._base)
+        else:
+            self._draw_shifted(painter, frame)
         self._paint_over(painter, frame, interactive=True)
         painter.end()
+
+    def _draw_shifted(self, painter: QPainter, frame: Frame) -> None:
+        """The last picture where the camera has it now."""
+        assert self._base is not None and self._base_camera is not None
+        painter.fillRect(self.rect(), self.ground(frame))
+        old, new = self._base_camera, frame.camera
+        (x0, y0), (x1, y1) = (new.point(*old.to_plan(*p)) for p in ((0, 0), (old.width, old.height)))
+        painter.drawPixmap(QRectF(x0, y0, x1 - x0, y1 - y0), self._base, QRectF(self._base.rect()))
 
     def _paint_ground(self, painter: QPainter, frame: Frame) -> None:
         painter.fillRect(

@@ -132,6 +132,10 @@ class HeightSlider(QFrame):
         self.setStyleSheet(
             f"#heightSlider {{ background: {c.panel}; border: 1px solid {c.line}; border-radius: 6px; }}"
             f"#heightSlider QLabel {{ background: transparent; color: {c.text}; font-size: 11px; }}"
+            f"QSlider::groove:vertical {{ width: 4px; border-radius: 2px; background: {c.line_strong}; }}"
+            f"QSlider::add-page:vertical {{ width: 4px; border-radius: 2px; background: {c.accent}; }}"
+            f"QSlider::handle:vertical {{ width: 12px; height: 12px; margin: 0 -5px; border-radius: 7px;"
+            f" background: {c.panel}; border: 1px solid {c.accent}; }}"
         )
 
 

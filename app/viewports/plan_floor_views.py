@@ -71,6 +71,8 @@ class NamesView:
 
     def _paint(self, painter: QPainter, frame: Frame, shape: RegionShape) -> None:
         lines = fitting_lines(frame, shape)
+        # Text on hatching gets ground of its own.
+        halo = colour(theme_tone(frame, shape.label), 0.8) if shape.predicted else None
         total = sum(pixels * LEADING for _, pixels, _ in lines)
         x, y = frame.camera.point(shape.spot.x, shape.spot.y)
         down = -total / 2
@@ -78,7 +80,7 @@ class NamesView:
             middle = down + pixels * LEADING / 2
             at = (x + middle, y) if shape.spot.turned else (x, y + middle)
             ink = frame.colours.text if pixels > SMALL else frame.colours.muted
-            draw_text(painter, text, at, pixels, colour(ink), weight, shape.spot.turned)
+            draw_text(painter, text, at, pixels, colour(ink), weight, shape.spot.turned, halo)
             down += pixels * LEADING
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QColor, QImage, QPainter, QPolygonF
+from PySide6.QtCore import QPointF, QRect, Qt
+from PySide6.QtGui import QBrush, QColor, QImage, QPainter, QPolygonF, QTransform
 
 from floorcast_app.layers.free_space import PREDICTED, SEEN_FREE, SOLID, UNSEEN, FreeSpaceLayer
 from floorcast_app.layers.observed import PointsLayer, TrajectoryLayer
@@ -15,8 +17,8 @@ from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, lines_
 
 DOT = 0.035  # metres that a dot covers when zoomed in
 SMALLEST_DOT, LARGEST_DOT = 2, 5  # device pixels
-DOTTED = (1.5, 4.0)  # pixels
-GUESSED = (7.0, 5.0)
+DOTTED = (2, 6)  # pixels on, and from dot to dot
+GUESSED = (7, 12)
 
 
 class PointsView:
@@ -42,7 +44,8 @@ class PointsView:
                 u, v = x + dx, y + dy
                 inside = (u >= 0) & (u < width) & (v >= 0) & (v < height)
                 canvas[v[inside], u[inside]] = tone[inside]
-        draw_pixels(painter, frame, canvas)
+        image = QImage(canvas.data, width, height, width * 4, QImage.Format.Format_ARGB32_Premultiplied)
+        draw_image(painter, frame, image)
 
 
 class TrajectoryView:
@@ -56,7 +59,7 @@ class TrajectoryView:
         if self._path.size() < 2:
             return
         painter.setTransform(frame.transform(), True)
-        painter.setPen(pen(frame.colours.accent, 1.4, 0.75))
+        painter.setPen(pen(frame.colours.accent, 1.0, 0.9))
         painter.drawPolyline(self._path)
         painter.resetTransform()
         painter.setPen(pen(frame.colours.canvas, 1.5))
@@ -75,9 +78,7 @@ class PlanesView:
         """Red for planes across x, green for those across y."""
         shown = [s for s in self._shapes if s.facing in frame.look.facings and frame.shows(*_key(s))]
         for shape in shown:
-            dashes, alpha = (GUESSED, 0.5) if shape.speculated else (DOTTED, 0.7)
-            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 1.0, alpha, dashes))
-            painter.drawLine(*across(frame, shape.facing.axis, shape.offset))
+            _draw_dotted(painter, frame, shape)
         painter.setTransform(frame.transform(), True)
         for shape in shown:
             painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 2.6))
@@ -89,45 +90,50 @@ class FreeSpaceView:
 
     def __init__(self, model: FreeSpaceLayer) -> None:
         self._model = model
+        self._padded = np.pad(model.codes, 1)  # UNSEEN around the grid
         self._outlines = path_of(model.outlines)
 
     def paint(self, painter: QPainter, frame: Frame) -> None:
         """White, hatched grey, black, and a tone for what nobody saw."""
-        draw_pixels(painter, frame, self._pixels(frame))
+        codes = self._pixels(frame)
+        height, width = codes.shape
+        image = QImage(codes.data, width, height, width, QImage.Format.Format_Indexed8)
+        image.setColorTable(self._palette(frame.colours))
+        draw_image(painter, frame, image)
         painter.setTransform(frame.transform(), True)
         painter.setPen(pen(frame.colours.hover, 1.6))
         painter.drawPath(self._outlines)
 
-    def _pixels(self, frame: Frame) -> NDArray[np.uint32]:
-        """The nearest cell of each device pixel."""
+    def _pixels(self, frame: Frame) -> NDArray[np.uint8]:
+        """The code of the nearest cell of each device pixel, plus four on the lines of the hatching."""
         width, height = (round(v * frame.ratio) for v in (frame.camera.width, frame.camera.height))
         scale, (x, y) = frame.camera.scale * frame.ratio, frame.camera.centre
         model = self._model
         along = (x - model.origin[0] + (np.arange(width) + 0.5 - width / 2) / scale) / model.cell
         up = (y - model.origin[1] - (np.arange(height) + 0.5 - height / 2) / scale) / model.cell
-        padded = np.pad(model.codes, 1)  # UNSEEN around the grid
         ix, iy = (
-            np.clip(np.floor(v) + 1, 0, n + 1).astype(np.int64)
+            np.clip(np.floor(v) + 1, 0, n + 1).astype(np.intp)
             for v, n in zip((along, up), model.codes.shape[::-1], strict=True)
         )
-        codes = padded[iy][:, ix]
-        return self._palette(frame.colours)[codes + 4 * self._on_line(frame, width, height)]
+        codes = self._padded.take(iy, axis=0).take(ix, axis=1)
+        codes += self._on_line(frame, width, height)
+        return codes
 
     def _on_line(self, frame: Frame, width: int, height: int) -> NDArray[np.uint8]:
-        """1 where a pixel lies on a line of the hatching, which stays with the plan."""
+        """4 on a line of the hatching, which stays with the plan, else 0: a sliding view of one row."""
         step = max(round(HATCH_STEP * frame.ratio), 3)
         s = frame.camera.scale * frame.ratio
         shift = round(frame.camera.centre[0] * s) + round(-frame.camera.centre[1] * s)
-        diagonal = (np.arange(height)[:, None] + np.arange(width)[None] + shift) % step
-        return (diagonal < max(round(1.5 * frame.ratio), 1)).astype(np.uint8)
+        row = (np.arange(width + height) + shift) % step < max(round(1.5 * frame.ratio), 1)
+        return np.lib.stride_tricks.sliding_window_view(row.astype(np.uint8) * np.uint8(4), width)[:height]
 
-    def _palette(self, c: Colours) -> NDArray[np.uint32]:
+    def _palette(self, c: Colours) -> list[int]:
         """By code; the second four where the hatching is."""
         tones = {UNSEEN: c.unobserved, SEEN_FREE: c.free, PREDICTED: c.predicted, SOLID: c.occupied}
         plain = [_argb(tones[k]) for k in range(4)]
         lines = list(plain)
         lines[PREDICTED] = _argb(QColor(c.predicted).darker(145).name())
-        return np.array([*plain, *lines], dtype=np.uint32)
+        return [*plain, *lines]
 
 
 def plane_colour(colours: Colours, axis: int) -> str:
@@ -143,14 +149,40 @@ def across(frame: Frame, axis: int, offset: float) -> tuple[QPointF, QPointF]:
     return QPointF(0, y), QPointF(frame.camera.width, y)
 
 
-def draw_pixels(painter: QPainter, frame: Frame, pixels: NDArray[np.uint32]) -> None:
-    """Device pixels (premultiplied ARGB) over the whole pane."""
-    height, width = pixels.shape
-    if not pixels.size:
-        return
-    pixels = np.ascontiguousarray(pixels)
-    image = QImage(pixels.data, width, height, width * 4, QImage.Format.Format_ARGB32_Premultiplied)
-    painter.drawImage(QRectF(0, 0, frame.camera.width, frame.camera.height), image)
+def _draw_dotted(painter: QPainter, frame: Frame, shape: PlaneShape) -> None:
+    """A line of dots all across the pane, as a tiled brush: strokes of dashes took ten times as long."""
+    axis = shape.facing.axis
+    on, step = GUESSED if shape.speculated else DOTTED
+    brush = QBrush(_dots_tile(plane_colour(frame.colours, axis), on, step, axis))
+    start, _ = across(frame, axis, shape.offset)
+    origin = frame.camera.point(0.0, 0.0)
+    shift = [round(v) % step for v in origin]
+    brush.setTransform(QTransform.fromTranslate(*((0, shift[1]) if axis == 0 else (shift[0], 0))))
+    x, y = round(start.x()), round(start.y())
+    if axis == 0:
+        painter.fillRect(QRect(x, 0, 1, round(frame.camera.height)), brush)
+    else:
+        painter.fillRect(QRect(0, y, round(frame.camera.width), 1), brush)
+
+
+@lru_cache(maxsize=32)
+def _dots_tile(name: str, on: int, step: int, axis: int) -> QImage:
+    """``on`` of ``step`` pixels in a row, or in a column for planes across x."""
+    tile = QImage(
+        1 if axis == 0 else step, step if axis == 0 else 1, QImage.Format.Format_ARGB32_Premultiplied
+    )
+    tile.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(tile)
+    painter.fillRect(QRect(0, 0, on, on), colour(name, 0.75))
+    painter.end()
+    return tile
+
+
+def draw_image(painter: QPainter, frame: Frame, image: QImage) -> None:
+    """An image of the whole pane in device pixels."""
+    if not image.isNull():
+        image.setDevicePixelRatio(frame.ratio)
+        painter.drawImage(0, 0, image)
 
 
 def _argb(name: str, alpha: float = 1.0) -> int:
