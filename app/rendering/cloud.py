@@ -84,7 +84,7 @@ def lowest_level(xyz: Floats) -> float:
     return float(np.quantile(xyz[:_SAMPLE, 2], 0.02)) if len(xyz) else 0.0
 
 
-def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str, cut: float | None = None) -> Paint:
+def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str) -> Paint:
     """Colour the points by one of ``POINT_COLOURS``; by height where the survey does not hold it."""
     if by == "rgb" and cloud.rgb is not None:
         return Paint(_in_blocks(cloud, lambda rows: ramps.pack(cloud.rgb[rows])))
@@ -93,13 +93,11 @@ def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str, cut: float 
         return Paint(_in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.intensity[rows], 0.0, 1.0)]))
     if by in ("facing", "plane") and plan is not None:
         return Paint(_by_plane(cloud, by, plan, theme))
-    return _by_height(cloud, plan, theme, cut, by if by != "height" else "")
+    return _by_height(cloud, plan, theme, by if by != "height" else "")
 
 
-def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, cut: float | None, note: str) -> Paint:
+def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, note: str) -> Paint:
     low, high = (cloud.low, cloud.high) if plan is None else (0.0, storey_height(plan))
-    if cut is not None:
-        high = max(min(high, cut), low + 0.1)
     ramp = ramps.height_ramp(theme)
     colours = _in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.xyz[rows, 2], low, high)])
     return Paint(colours, note, (low, high))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +11,14 @@ from numpy.typing import NDArray
 from floorcast_app.rendering import ramps
 from floorcast_app.rendering.cloud import facing_colours, storey_height
 from floorcast_app.rendering.drawables import OPAQUE, Builder, Lines, Surfaces
+from floorcast_app.rendering.floors import LIFT, NO_FLOORS, Floors, make_floors
 from floorcast_app.rendering.shapes import (
     dashed,
     fan,
     frame,
     on_wall,
-    outline,
-    parts,
     quad,
     raised,
-    triangles_of,
 )
 from floorcast_app.selection import Item
 from floorcast_app.theme import colours as theme_colours
@@ -30,9 +27,7 @@ from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
 
 Float = NDArray[np.float64]
 
-FLOOR_LIFT = 0.015  # metres: floors and grid lie above the points of the floor
 DOOR_HEIGHT = 2.05  # metres, where no lintel was seen
-PATH_HEIGHT = 1.2  # metres of the trajectory above the floor, where only its plan is known
 HATCH = 3  # pixels of a stripe: what was predicted
 
 ALPHA = {"wall": 62, "bare_wall": 110, "door": 150, "floor": 165, "predicted": 110}  # of 256
@@ -68,9 +63,15 @@ def build_scene(
     selected: Iterable[Item] = (),
     hovered: Item | None = None,
     path: Float | None = None,
+    floors: Floors | None = None,
 ) -> Scene:
-    """The scene of ``plan`` as ``look`` wants it; ``path`` (M, 3) is the trajectory, metres, scene frame."""
-    view = _View(plan, look, frozenset(selected), hovered)
+    """The scene of ``plan`` as ``look`` wants it.
+
+    ``path`` (M, 3) is the trajectory, metres, scene frame; ``floors`` those of the plan, where known.
+    """
+    if floors is None:
+        floors = NO_FLOORS if plan is None else make_floors(plan, look.section)
+    view = _View(plan, look, frozenset(selected), hovered, floors)
     if plan is not None:
         if "regions" in look.layers:
             for region in plan.regions:
@@ -83,6 +84,8 @@ def build_scene(
         if "doors" in look.layers:
             for door in plan.doors:
                 view.door(door)
+    if look.section is not None:
+        view.section(look.section)
     if path is not None and "trajectory" in look.layers:
         view.path(path)
     return view.scene()
@@ -92,9 +95,14 @@ class _View:
     """One pass over a plan: what is drawn and how, given look and selection."""
 
     def __init__(
-        self, plan: FloorPlan | None, look: Look, selected: frozenset[Item], hovered: Item | None
+        self,
+        plan: FloorPlan | None,
+        look: Look,
+        selected: frozenset[Item],
+        hovered: Item | None,
+        floors: Floors,
     ) -> None:
-        self._plan, self._look, self._selected, self._hovered = plan, look, selected, hovered
+        self._shapes, self._look, self._selected, self._hovered = floors, look, selected, hovered
         self._holds = theme_colours(look.theme)
         self._facing = facing_colours(look.theme)
         self._floors, self._walls, self._lines, self._marks = (Builder() for _ in range(4))
@@ -104,37 +112,34 @@ class _View:
         self._top = ceiling if look.ceiling_cut is None else max(min(ceiling, look.ceiling_cut), 0.05)
 
     def region(self, region: Region) -> None:
-        item = Item("region", region.id)
-        if self._hidden(item):
-            return
-        polygon = self._inside(region.polygon)
-        if polygon.is_empty:
+        item, shape = Item("region", region.id), self._shapes.regions.get(region.id)
+        if shape is None or self._hidden(item):
             return
         owner, lit = self._own(item), self._lit(item)
-        fill = {"room": self._holds.room, "corridor": self._holds.corridor}.get(
-            region.label, self._holds.other
-        )
+        holds = self._holds
+        fill = {"room": holds.room, "corridor": holds.corridor}.get(region.label, holds.other)
         alpha = HIGHLIGHT["floor"] if lit else ALPHA["floor"]
-        colour = self._tint(item, fill)
-        self._floors.surface(triangles_of(polygon, FLOOR_LIFT), colour, alpha, owner)
+        self._floors.surface(shape.triangles, self._tint(item, fill), alpha, owner)
         ink = ramps.shifted(fill, -0.25 if self._look.theme == "light" else 0.25)
         for side in region.sides:
             ends = self._in_section(np.array([side.start, side.end]))
             if ends is not None:
-                ends = raised(ends, FLOOR_LIFT)[None]
+                ends = raised(ends, LIFT)[None]
                 self._lines.line(dashed(ends) if side.speculated else ends, ink, 230)
         if lit:
-            self._marks.line(outline(polygon, FLOOR_LIFT), lit, 235, 2)
-        spot = polygon.representative_point() if not polygon.contains(polygon.centroid) else polygon.centroid
-        self._labels.append(Label((spot.x, spot.y, FLOOR_LIFT), region.name, region.area, item))
+            self._marks.line(shape.edges, lit, 235, 2)
+        self._labels.append(Label(shape.spot, region.name, region.area, item))
 
     def predicted(self) -> None:
-        assert self._plan is not None
-        for polygon in parts(self._inside(predicted_area(self._plan))):
-            triangles = triangles_of(polygon, FLOOR_LIFT)
-            self._floors.surface(
-                triangles, ramps.packed(self._holds.predicted), ALPHA["predicted"], -1, HATCH
-            )
+        grey = ramps.packed(self._holds.predicted)
+        self._floors.surface(self._shapes.predicted, grey, ALPHA["predicted"], -1, HATCH)
+
+    def section(self, box: tuple[float, float, float, float]) -> None:
+        corners = np.array(box)[[[0, 1], [2, 1], [2, 3], [0, 3], [0, 1]]]
+        low, high = raised(corners, 0.0), raised(corners, self._top)
+        edges = [np.stack([ring[:-1], ring[1:]], axis=1) for ring in (low, high)]
+        upright = np.stack([low[:-1], high[:-1]], axis=1)
+        self._lines.line(np.concatenate([*edges, upright]), ramps.packed(self._holds.accent), 200)
 
     def plane(self, plane: LayoutPlane) -> None:
         item = Item("plane", plane.id)
@@ -173,7 +178,7 @@ class _View:
         edge = ramps.shifted(self._holds.door, -0.15)
         self._lines.line(frame(ends, 0.0, top), edge, OPAQUE, 1)
         threshold = np.array([ends[0] - half, ends[1] - half, ends[1] + half, ends[0] + half])
-        self._floors.surface(fan(raised(threshold, 2 * FLOOR_LIFT)), colour, OPAQUE, owner)
+        self._floors.surface(fan(raised(threshold, 2 * LIFT)), colour, OPAQUE, owner)
         if lit:
             self._marks.line(frame(ends, 0.0, top), lit, 245, 2)
 
@@ -223,13 +228,6 @@ class _View:
             return ramps.packed(self._holds.selection)
         return ramps.packed(plain) if plain is not None else 0
 
-    def _inside(self, polygon: Any) -> Any:
-        if self._look.section is None:
-            return polygon
-        from shapely import box
-
-        return polygon.intersection(box(*self._look.section))
-
     def _in_section(self, ends: Float) -> Float | None:
         """(2, 2) the part of an axis-aligned line inside the section box; None where there is none."""
         if self._look.section is None:
@@ -240,8 +238,3 @@ class _View:
         if (across & (cut[0] != ends[0])).any() or (cut[0] == cut[1]).all():
             return None
         return cut
-
-
-def predicted_area(plan: FloorPlan) -> Any:
-    """Shapely area that was predicted, without the steps of its cells' staircase below half a cell."""
-    return plan.speculated().simplify(plan.grid.cell / 2)

@@ -1,0 +1,106 @@
+"""Points for the 3D pane, made ready in a thread: shuffled, moved into the scene, coloured. No Qt."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorcast_app.point_store import PointStore
+from floorcast_app.rendering.cloud import Cloud, Paint, lowest_level, make_cloud, paint, scene_matrix
+from floorplan_core.model import FloorPlan
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What the points are wanted for."""
+
+    store: PointStore
+    plan: FloorPlan | None
+    colour: str  # one of POINT_COLOURS
+    theme: str
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """Points ready to draw."""
+
+    wanted: Wanted
+    cloud: Cloud
+    paint: Paint
+    matrix: Float  # (3, 4) local frame to scene
+
+
+class CloudMaker:
+    """Makes what is wanted; keeps the cloud as long as only its colours change."""
+
+    def __init__(self) -> None:
+        self._kept: tuple[PointStore, int, Float, Cloud] | None = None
+
+    def load(self, wanted: Wanted) -> Loaded:
+        """Points of the store as it is now."""
+        cloud, matrix = self._cloud(wanted.store, wanted.plan)
+        return Loaded(wanted, cloud, paint(cloud, wanted.colour, wanted.plan, wanted.theme), matrix)
+
+    def _cloud(self, store: PointStore, plan: FloorPlan | None) -> tuple[Cloud, Float]:
+        count, matrix = len(store), None if plan is None else scene_matrix(plan)
+        kept = self._kept
+        if kept is not None and kept[0] is store and kept[1] == count and _near(kept[2], matrix):
+            return kept[3], kept[2]
+        points = store.snapshot()
+        if matrix is None:
+            matrix = scene_matrix(None, lowest_level(points.xyz))
+        cloud = make_cloud(points, matrix)
+        self._kept = (store, count, matrix, cloud)
+        return cloud, matrix
+
+
+class CloudLoader:
+    """Loads what was wanted last, and tells ``done(loaded)`` in its own thread."""
+
+    def __init__(self, done: Callable[[Loaded], None]) -> None:
+        self._done = done
+        self._wake = threading.Condition()
+        self._wanted: Wanted | None = None
+        self._closed = self._busy = False
+        self._maker = CloudMaker()
+        threading.Thread(target=self._run, name="3D points", daemon=True).start()
+
+    @property
+    def busy(self) -> bool:
+        """True while something that was wanted is not there yet."""
+        return self._busy or self._wanted is not None
+
+    def want(self, wanted: Wanted) -> None:
+        """Load soon; what was wanted before is forgotten."""
+        with self._wake:
+            self._wanted = wanted
+            self._wake.notify()
+
+    def close(self) -> None:
+        """Load no more; returns at once."""
+        with self._wake:
+            self._closed = True
+            self._wake.notify()
+
+    def _run(self) -> None:
+        while True:
+            with self._wake:
+                self._busy = False
+                self._wake.wait_for(lambda: self._wanted is not None or self._closed)
+                if self._closed or self._wanted is None:
+                    return
+                wanted, self._wanted, self._busy = self._wanted, None, True
+            loaded = self._maker.load(wanted)
+            if self._wanted is None and not self._closed:
+                self._done(loaded)
+
+
+def _near(kept: Float, matrix: Float | None) -> bool:
+    """True where points need not be moved again: no plan, or a frame that did not turn."""
+    return matrix is None or bool(np.array_equal(kept, matrix))
