@@ -179,7 +179,7 @@ def plan_grid_map(
         stage.seconds,
         raster=grid_map.raster,
         corrected=by_hand(all_planes, doors, regions),
-        machine=dict(reversed(said.machine)),
+        machine=said.machine_said(),
     )
 
 

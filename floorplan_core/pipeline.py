@@ -212,7 +212,7 @@ class FloorPlanner:
             seconds=stage.seconds,
             storey=storey,
             corrected=by_hand(planes, doors, regions),
-            machine=dict(reversed(said.machine)),  # the first that was said of a thing
+            machine=said.machine_said(),
         )
 
     def _corrected_doors(

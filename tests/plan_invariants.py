@@ -52,17 +52,28 @@ def assert_exported_coverage(plan: FloorPlan) -> None:
 
 
 def _walls(plan: FloorPlan) -> list[tuple[LayoutPlane, shapely.LineString]]:
-    """Where wall stands on the floor: runs of paired planes that were seen over a third of the height."""
+    """Where wall stands on the floor: runs of paired planes that were seen over a third of the height.
+
+    Where a person said otherwise, only what is left of the walls.
+    """
     out = []
     for plane in plan.planes:
+        out += [(plane, _line(plane, a, b)) for a, b in plane.walls if plane.by_hand == "added"]
         if plane.profile is None or plane.support < plan.config.planes.min_support:
             continue
         mask = np.concatenate([[False], plane.profile.low >= STANDING, [False]]).astype(np.int8)
         for run in np.flatnonzero(np.diff(mask)).reshape(-1, 2):
             start, end = plane.profile.start + run * plane.profile.step
-            ends = [(plane.offset, start), (plane.offset, end)]
-            out.append((plane, shapely.LineString([e[:: 1 - 2 * plane.facing.axis] for e in ends])))
+            left = [(start, end)]
+            if plan.corrected:
+                left = [(max(start, a), min(end, b)) for a, b in plane.walls if min(end, b) > max(start, a)]
+            out += [(plane, _line(plane, a, b)) for a, b in left]
     return out
+
+
+def _line(plane: LayoutPlane, start: float, end: float) -> shapely.LineString:
+    ends = [(plane.offset, start), (plane.offset, end)]
+    return shapely.LineString([e[:: 1 - 2 * plane.facing.axis] for e in ends])
 
 
 def assert_no_wall_inside(plan: FloorPlan) -> None:

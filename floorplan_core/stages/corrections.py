@@ -53,6 +53,14 @@ class Remarks:
     def __add__(self, other: Remarks) -> Remarks:
         return Remarks(self.machine + other.machine, self.warnings + other.warnings)
 
+    def machine_said(self) -> dict[str, str]:
+        """By id all that the machine had said of a thing, in the order in which it was overruled."""
+        out: dict[str, str] = {}
+        for ident, text in self.machine:
+            if text not in out.get(ident, "").split("; "):
+                out[ident] = f"{out[ident]}; {text}" if ident in out else text
+        return out
+
 
 NOTHING = Remarks()
 
