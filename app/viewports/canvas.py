@@ -164,7 +164,7 @@ class PlanCanvas(QWidget):
         self._refresh()
 
     def _look_changed(self, before: Look, after: Look) -> None:
-        """Other panes than the one that is moved shift their picture and paint it anew when the camera rests."""
+        """Panes beside the one that is moved shift their picture, and paint it anew at intervals."""
         moved_only = replace(before, centre=after.centre, span=after.span) == after
         if moved_only and self._base is not None and not self.underMouse():
             if not self._settle.isActive():

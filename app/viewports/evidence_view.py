@@ -1,0 +1,409 @@
+"""Door evidence: histogram, gradient and filter response along the chosen plane, with what was detected."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
+from PySide6.QtGui import QImage, QMouseEvent, QPainter, QPaintEvent, QPolygonF, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QToolButton, QWidget
+
+from floorcast_app import format, theme
+from floorcast_app.layers.evidence import EvidenceLayer, evidence_layer
+from floorcast_app.selection import Item
+from floorcast_app.theme import Colours
+from floorcast_app.translation import tr
+from floorcast_app.viewports.plan_camera import STEP
+from floorcast_app.viewports.plan_frame import (
+    BODY,
+    SMALL,
+    colour,
+    draw_text,
+    font,
+    pen,
+    round_length,
+    text_size,
+)
+from floorcast_app.viewports.plan_observed_views import plane_colour
+from floorcast_app.workbench import Workbench
+from floorplan_core.model import Door
+
+LEFT, RIGHT, TOP, BOTTOM, GAP = 44.0, 14.0, 44.0, 34.0, 10.0  # pixels around and between the tracks
+TICKS = 70.0  # pixels that a metre tick takes at least
+AROUND = 3.0  # metres shown beside a selected door
+NEAREST = 0.5  # metres: closer in there is nothing to see
+BESIDE = 0.6  # metres from the plane at which the pointer of a plan pane is still shown
+CLICK = 4.0  # pixels that a click may move
+GRADIENT = 1.1  # the most of either sign that the track shows
+
+
+class EvidenceView(QWidget):
+    """Three tracks over one axis in metres."""
+
+    def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.workbench = workbench
+        self.setMouseTracking(True)
+        self.setMinimumSize(220, 180)
+        self.evidence: EvidenceLayer | None = None
+        self._face = 0
+        self._shown = (0.0, 1.0)  # metres along the plane
+        self._cursor: float | None = None  # metres along the plane
+        self._press: QPointF | None = None
+        self._last = QPointF()
+        self.other = QToolButton(self)
+        self.other.setText(tr("Other face"))
+        self.other.setToolTip(tr("Show the evidence on the other face of the wall"))
+        self.other.clicked.connect(self.turn)
+        w = workbench
+        self._bound = (
+            (w.plan_changed, self._plan_changed),
+            (w.selection.changed, self._selected),
+            (w.selection.hover_changed, self.update),
+            (w.pointer_moved, self._pointer_moved),
+            (w.view.changed, self._look_changed),
+            (theme.changed, self._look_changed),
+        )
+        for event, listener in self._bound:
+            event.connect(listener)
+        self._selected()
+
+    def shut_down(self) -> None:
+        """Stop listening; the window calls it when it closes."""
+        for event, listener in self._bound:
+            event.disconnect(listener)
+
+    def picture(self, width: int, height: int) -> QImage:
+        """The pane as an image of ``width`` x ``height`` pixels."""
+        image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
+        painter = QPainter(image)
+        self._paint(painter, QRectF(0, 0, width, height))
+        painter.end()
+        return image
+
+    def turn(self) -> None:
+        """Show the other face of the selected door's wall."""
+        self._face += 1
+        self._load(keep_range=True)
+
+    # ---- listening --------------------------------------------------------------------------------------
+
+    def _plan_changed(self, plan: object) -> None:
+        self._load(keep_range=self.evidence is not None)
+
+    def _selected(self) -> None:
+        """A selected plane or door is shown; other things leave what is shown."""
+        item = self.workbench.selection.item
+        if item is None or item.kind in ("plane", "door"):
+            self._face = 0
+            self._load()
+
+    def _look_changed(self, *_: object) -> None:
+        self.update()
+
+    def _pointer_moved(self, x: float | None, y: float | None) -> None:
+        """The pointer of a plan pane, where it is near the plane."""
+        if self.underMouse():
+            return
+        self._cursor = None
+        if x is not None and y is not None and self.evidence is not None:
+            along, away = self.evidence.along(x, y)
+            self._cursor = along if away <= BESIDE else None
+        self.update()
+
+    def _load(self, keep_range: bool = False) -> None:
+        plan, item = self.workbench.plan, self.workbench.selection.item
+        before = self.evidence
+        self.evidence = evidence_layer(plan, item, self._face) if plan is not None else None
+        self.other.setVisible(self.evidence is not None and len(self.evidence.faces) > 1)
+        if self.evidence is not None and not (keep_range and before is not None):
+            self._shown = self._range(self.evidence)
+        self.update()
+
+    def _range(self, evidence: EvidenceLayer) -> tuple[float, float]:
+        """All that was seen, or the surroundings of a selected door."""
+        door = self.workbench.find(self.workbench.selection.item)
+        if isinstance(door, Door):
+            return max(evidence.start, door.start - AROUND), min(evidence.end, door.end + AROUND)
+        return evidence.start, evidence.end
+
+    # ---- painting ---------------------------------------------------------------------------------------
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        self._paint(painter, QRectF(self.rect()))
+        painter.end()
+
+    def _paint(self, painter: QPainter, area: QRectF) -> None:
+        c = theme.colours()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(area, colour(c.panel))
+        evidence = self.evidence
+        if evidence is None:
+            self._paint_empty(painter, area, c)
+            return
+        self._paint_title(painter, area, evidence, c)
+        tracks = self._tracks(area)
+        self._paint_doors(painter, tracks, evidence, c)
+        self._paint_axis(painter, tracks, evidence, c)
+        for track, paint in zip(tracks, (_histogram, _gradient, _response), strict=True):
+            painter.save()
+            painter.setClipRect(track)
+            paint(painter, track, evidence, self._shown, c)
+            painter.restore()
+        for track, text in zip(tracks, (tr("Histogram"), tr("Gradient"), tr("Filter")), strict=True):
+            _label(painter, track, text, c)
+        if self._cursor is not None:
+            self._paint_cursor(painter, tracks, evidence, c)
+
+    def _paint_empty(self, painter: QPainter, area: QRectF, c: Colours) -> None:
+        thing = self.workbench.selection.item
+        known = thing is not None and thing.kind in ("plane", "door")
+        text = tr("Nothing was seen along this wall.") if known else tr("Select a wall or a door.")
+        draw_text(painter, text, (area.center().x(), area.center().y()), BODY, colour(c.muted))
+
+    def _paint_title(self, painter: QPainter, area: QRectF, evidence: EvidenceLayer, c: Colours) -> None:
+        units, axis = self.workbench.view.look.units, evidence.facing.axis
+        facing = {"EAST": tr("east"), "WEST": tr("west"), "NORTH": tr("north"), "SOUTH": tr("south")}
+        text = tr("Plane {id} faces {facing}").format(id=evidence.plane, facing=facing[evidence.facing.name])
+        painter.setFont(font(BODY, 600))
+        painter.setPen(colour(plane_colour(c, axis)))
+        painter.drawText(QPointF(LEFT, 18), text)
+        painter.setFont(font(SMALL))
+        painter.setPen(colour(c.muted))
+        count = len(evidence.doors)
+        doors = tr("1 door") if count == 1 else tr("{count} doors").format(count=count)
+        painter.drawText(
+            QPointF(LEFT, 34), f"{'xy'[axis]} = {format.length(evidence.offset, units)} · {doors}"
+        )
+
+    def _paint_doors(
+        self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
+    ) -> None:
+        """Bands over all tracks; the selected and the hovered one outlined."""
+        selection = self.workbench.selection
+        for door in evidence.doors:
+            left, right = (_x(tracks[0], self._shown, v) for v in (door.start, door.end))
+            band = QRectF(left, tracks[0].top(), right - left, tracks[-1].bottom() - tracks[0].top())
+            band = band.intersected(QRectF(LEFT, 0, tracks[0].width(), tracks[-1].bottom()))
+            if band.width() <= 0:
+                continue
+            item = Item("door", door.id)
+            painter.fillRect(band, colour(c.door, 0.35))
+            tone = (
+                c.selection if item in selection.items else c.hover if item == selection.hovered else c.door
+            )
+            painter.setPen(pen(tone, 2.0 if tone != c.door else 1.2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(band)
+            text = format.length(door.width, self.workbench.view.look.units)
+            if text_size(text, SMALL)[0] + 6 <= band.width():
+                draw_text(painter, text, (band.center().x(), band.top() + 10), SMALL, colour(c.text), 500)
+
+    def _paint_axis(
+        self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
+    ) -> None:
+        """Metres along the plane: a grid over all tracks, numbers below."""
+        unit = format.METRES_PER_FOOT if self.workbench.view.look.units == "ft-in" else 1.0
+        low, high = self._shown
+        width = tracks[0].width()
+        step = max(round_length((high - low) / unit * TICKS / width) * 2, 0.1) * unit
+        bottom = tracks[-1].bottom()
+        for k in range(math.ceil(low / step), math.floor(high / step) + 1):
+            x = _x(tracks[0], self._shown, k * step)
+            painter.setPen(pen(c.line, 1.0))
+            for track in tracks:
+                painter.drawLine(QPointF(x, track.top()), QPointF(x, track.bottom()))
+            draw_text(painter, f"{k * step / unit:g}", (x, bottom + 11), SMALL, colour(c.muted))
+        name = "yx"[evidence.facing.axis]
+        text = f"{name}, {'ft' if unit != 1.0 else 'm'}"
+        draw_text(painter, text, (tracks[0].center().x(), bottom + 25), SMALL, colour(c.muted))
+
+    def _paint_cursor(
+        self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
+    ) -> None:
+        """Where the pointer is, with the values there."""
+        assert self._cursor is not None
+        x = _x(tracks[0], self._shown, self._cursor)
+        if not tracks[0].left() <= x <= tracks[0].right():
+            return
+        painter.setPen(pen(c.accent, 1.2))
+        painter.drawLine(QPointF(x, tracks[0].top()), QPointF(x, tracks[-1].bottom()))
+        k = int(np.argmin(np.abs(evidence.at - self._cursor)))
+        for track, values in zip(
+            tracks, (evidence.histogram, evidence.gradient, evidence.response), strict=True
+        ):
+            at = (track.right() - 18, track.top() + 9)
+            draw_text(
+                painter, f"{values[k] + 0.0:.2f}", at, SMALL, colour(c.accent), 600, False, colour(c.panel)
+            )
+
+    def _tracks(self, area: QRectF) -> list[QRectF]:
+        """The three tracks; the histogram is the tallest."""
+        height = max(area.height() - TOP - BOTTOM - 2 * GAP, 30.0)
+        width = max(area.width() - LEFT - RIGHT, 30.0)
+        shares, y, out = (0.4, 0.3, 0.3), TOP, []
+        for share in shares:
+            out.append(QRectF(LEFT, y, width, share * height))
+            y += share * height + GAP
+        return out
+
+    # ---- mouse ------------------------------------------------------------------------------------------
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        evidence = self.evidence
+        if evidence is None:
+            return
+        track = self._tracks(QRectF(self.rect()))[0]
+        if self._press is not None and (event.position() - self._press).manhattanLength() > CLICK:
+            metres = (
+                (event.position().x() - self._last.x()) / track.width() * (self._shown[1] - self._shown[0])
+            )
+            self._shown = (self._shown[0] - metres, self._shown[1] - metres)
+        self._last = event.position()
+        self._cursor = self._along(event.position())
+        self.workbench.pointer_moved.emit(*evidence.point(self._cursor))
+        self.workbench.selection.hover(self.door_at(event.position()))
+        self.update()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
+            self._press = self._last = event.position()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        press, self._press = self._press, None
+        if press is None or (event.position() - press).manhattanLength() > CLICK:
+            return
+        item = self.door_at(event.position())
+        if event.button() == Qt.MouseButton.LeftButton and item is not None:
+            self.workbench.selection.select(
+                item, bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+            )
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """On a door: bring it into view; elsewhere: the whole plane."""
+        item = self.door_at(event.position())
+        if item is not None:
+            self.workbench.selection.zoom_asked.emit(item)
+        elif self.evidence is not None:
+            self._shown = (self.evidence.start, self.evidence.end)
+            self.update()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Zoom along the axis to the pointer."""
+        if self.evidence is None or not event.angleDelta().y():
+            return
+        at = self._along(event.position())
+        share = STEP ** (-event.angleDelta().y() / 120)
+        low, high = (at + (v - at) * share for v in self._shown)
+        if high - low >= NEAREST:
+            self._shown = (max(low, self.evidence.start), min(high, self.evidence.end))
+        event.accept()
+        self.update()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        self._cursor = None
+        self.workbench.selection.hover(None)
+        self.workbench.pointer_moved.emit(None, None)
+        self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        size = self.other.sizeHint()
+        self.other.setGeometry(self.width() - size.width() - 12, 8, size.width(), size.height())
+
+    def door_at(self, position: QPointF) -> Item | None:
+        """The detection at a pixel of this widget."""
+        if self.evidence is None:
+            return None
+        tracks = self._tracks(QRectF(self.rect()))
+        if not tracks[0].top() <= position.y() <= tracks[-1].bottom():
+            return None
+        along = self._along(position)
+        return next((Item("door", d.id) for d in self.evidence.doors if d.start <= along <= d.end), None)
+
+    def pixel_of(self, along: float) -> float:
+        """Horizontal pixel of a place along the plane, metres."""
+        return _x(self._tracks(QRectF(self.rect()))[0], self._shown, along)
+
+    def _along(self, position: QPointF) -> float:
+        track = self._tracks(QRectF(self.rect()))[0]
+        low, high = self._shown
+        return low + (position.x() - track.left()) / track.width() * (high - low)
+
+
+def _x(track: QRectF, shown: tuple[float, float], along: float) -> float:
+    low, high = shown
+    return track.left() + (along - low) / (high - low) * track.width()
+
+
+def _curve(
+    track: QRectF,
+    evidence: EvidenceLayer,
+    shown: tuple[float, float],
+    values: NDArray[np.float64],
+    low: float,
+    high: float,
+) -> QPolygonF:
+    """The values of the bins in view as a line of pixels."""
+    first = max(int(np.searchsorted(evidence.at, shown[0])) - 1, 0)
+    last = min(int(np.searchsorted(evidence.at, shown[1])) + 2, len(values))
+    x = track.left() + (evidence.at[first:last] - shown[0]) / (shown[1] - shown[0]) * track.width()
+    y = (
+        track.bottom()
+        - (np.clip(values[first:last], low, high) - low) / (high - low) * (track.height() - 4)
+        - 2
+    )
+    return QPolygonF([QPointF(a, b) for a, b in zip(x.tolist(), y.tolist(), strict=True)])
+
+
+def _filled(painter: QPainter, line: QPolygonF, base: float, name: str, alpha: float) -> None:
+    """A line with the ground between it and ``base``."""
+    if line.isEmpty():
+        return
+    area = QPolygonF([QPointF(line.first().x(), base), *line, QPointF(line.last().x(), base)])
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(colour(name, alpha))
+    painter.drawPolygon(area)
+    painter.setPen(pen(name, 1.4))
+    painter.drawPolyline(line)
+
+
+def _histogram(
+    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
+) -> None:
+    """Wall seen below 2 m, filled; above 2 m (lintels) as a thin line."""
+    tone = plane_colour(c, evidence.facing.axis)
+    _filled(painter, _curve(track, evidence, shown, evidence.histogram, 0, 1), track.bottom(), tone, 0.28)
+    painter.setPen(pen(c.muted, 1.0, 0.9))
+    painter.drawPolyline(_curve(track, evidence, shown, evidence.lintel, 0, 1))
+
+
+def _gradient(
+    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
+) -> None:
+    """Falls where an opening begins, rises where it ends."""
+    middle = track.center().y()
+    painter.setPen(pen(c.line_strong, 1.0))
+    painter.drawLine(QPointF(track.left(), middle), QPointF(track.right(), middle))
+    painter.setPen(pen(c.text, 1.3))
+    painter.drawPolyline(_curve(track, evidence, shown, evidence.gradient, -GRADIENT, GRADIENT))
+
+
+def _response(
+    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
+) -> None:
+    """The best answer of the matched filter, and the threshold."""
+    _filled(painter, _curve(track, evidence, shown, evidence.response, 0, 1), track.bottom(), c.accent, 0.25)
+    y = track.bottom() - evidence.threshold * (track.height() - 4) - 2
+    painter.setPen(pen(c.warning, 1.0, 1.0, (5.0, 4.0)))
+    painter.drawLine(QPointF(track.left(), y), QPointF(track.right(), y))
+
+
+def _label(painter: QPainter, track: QRectF, text: str, c: Colours) -> None:
+    """The frame of a track and its name, reading upwards."""
+    painter.setPen(pen(c.line_strong, 1.0))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawRect(track)
+    draw_text(painter, text, (track.left() - 14, track.center().y()), SMALL, colour(c.muted), 400, True)
