@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QMainWindow
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QWidget
 
 H, V = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
 HIDDEN = {  # panes that a workspace does without
-    "inspect": (),
+    "inspect": ("timeline",),
     "plan": ("space", "planes", "free_space", "evidence", "timeline", "layers"),
     "run": ("planes", "free_space", "evidence", "settings", "layers"),
 }
+
+TABLES = {"inspect": 0.24, "plan": 0.24, "run": 0.2}  # of the window's height, for the tables at the bottom
+LINE = {"inspect": 0.1, "plan": 0.1, "run": 0.25}  # for the timeline, where it is shown
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: str) -> None:
@@ -33,11 +36,10 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
     window.tabifyDockWidget(docks["evidence"], docks["settings"])
     docks["evidence"].raise_()
     window.addDockWidget(bottom, docks["items"])
+    window.splitDockWidget(docks["items"], docks["timeline"], V)  # before there are tabs: it would become one
     for id in ("ground_truth", "warnings", "history"):
         window.tabifyDockWidget(docks["items"], docks[id])
     docks["items"].raise_()
-    window.addDockWidget(bottom, docks["timeline"])
-    window.splitDockWidget(docks["items"], docks["timeline"], V)
     for id, dock in docks.items():
         dock.setVisible(id not in HIDDEN[workspace])
     _resize(window, docks, workspace)
@@ -45,17 +47,35 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
 
 def _resize(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: str) -> None:
     width, height = max(window.width(), 900), max(window.height(), 600)
-    side = max(220, round(0.17 * width))
-    middle = (width - side - max(180, round(0.12 * width))) // 2
-    window.resizeDocks(
-        [docks[k] for k in ("layers", "space", "planes", "properties")],
-        [max(180, round(0.12 * width)), middle, middle, side],
-        H,
-    )
-    tables = round(0.2 * height)
-    tall = {"inspect": 72, "plan": 72, "run": 160}[workspace]
-    window.resizeDocks([docks["items"], docks["timeline"]], [tables, tall], V)
-    half = (height - tables - tall) // 2
-    window.resizeDocks([docks["space"], docks["free_space"]], [half, half], V)
-    window.resizeDocks([docks["planes"], docks["floor_plan"]], [half, half], V)
-    window.resizeDocks([docks["properties"], docks["evidence"]], [half, half], V)
+    left, right = min(max(224, round(0.14 * width)), 280), min(max(264, round(0.19 * width)), 380)
+    middle = (width - left - right) // 2
+    columns = [docks[k] for k in ("layers", "space", "planes", "properties")]
+    window.resizeDocks(columns, [left, middle, middle, right], H)
+    tables, line = round(TABLES[workspace] * height), round(LINE[workspace] * height)
+    window.resizeDocks([docks["items"], docks["timeline"]], [tables, line], V)
+    half = (height - tables - line) // 2
+    for above, below in (("space", "free_space"), ("planes", "floor_plan"), ("properties", "evidence")):
+        window.resizeDocks([docks[above], docks[below]], [half, half], V)
+
+
+class TitleBars:
+    """A dock among tabs needs no title above them: its tab says it already."""
+
+    def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
+        self._window, self._docks = window, docks
+        self._soon = QTimer(window, singleShot=True, interval=0)
+        self._soon.timeout.connect(self.refresh)
+        for dock in docks.values():
+            dock.topLevelChanged.connect(lambda _: self._soon.start())
+            dock.dockLocationChanged.connect(lambda _: self._soon.start())
+            dock.visibilityChanged.connect(lambda _: self._soon.start())
+
+    def refresh(self) -> None:
+        """Show the title bars of docks that stand alone, hide those among tabs."""
+        for dock in self._docks.values():
+            tabbed = not dock.isFloating() and bool(self._window.tabifiedDockWidgets(dock))
+            if tabbed and dock.titleBarWidget() is None:
+                dock.setTitleBarWidget(QWidget(dock))
+            elif not tabbed and (bar := dock.titleBarWidget()) is not None:
+                dock.setTitleBarWidget(None)  # type: ignore[arg-type]
+                bar.deleteLater()

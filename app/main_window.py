@@ -14,11 +14,11 @@ from PySide6.QtGui import (
     QKeyEvent,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from floorcast_app import theme
 from floorcast_app.actions import MENUS
-from floorcast_app.dock_layout import arrange
+from floorcast_app.dock_layout import TitleBars, arrange
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.toast import Toast
@@ -61,8 +61,10 @@ class MainWindow(QMainWindow):
         self.setObjectName("floorcast")
         self.setDockNestingEnabled(True)
         self.setAcceptDrops(True)
-        self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, self._north())
+        self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, QTabWidget.TabPosition.North)
+        self.setDockOptions(self.dockOptions() | QMainWindow.DockOption.GroupedDragging)
         self.docks = {pane.id: self._dock(pane.id, pane.title, pane.make(workbench)) for pane in PANES}
+        self._titles = TitleBars(self, self.docks)
         self._fill_menus()
         self._fill_toolbar()
         self.status = StatusBar(workbench, self)
@@ -242,11 +244,6 @@ class MainWindow(QMainWindow):
             else:
                 bar.addAction(self.actions_by_id[id])
         self.addToolBar(bar)
-
-    def _north(self) -> "QTabWidget.TabPosition":  # noqa: F821, UP037
-        from PySide6.QtWidgets import QTabWidget
-
-        return QTabWidget.TabPosition.North
 
     def _window_picture(self, width: int, height: int) -> QImage:
         size = self.size()
