@@ -26,6 +26,7 @@ from floorplan_core.model.corrections import (
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
 from floorplan_core.stages.corrections import NOTHING, REACH, Remarks, Span, beyond, line_of, place, runs_of
 
+ADDED = "hw"  # the ids of walls added by hand begin so
 SHORTEST = 0.1  # m: a shorter line by hand is a slip of the mouse
 
 Planes = tuple[LayoutPlane, ...]
@@ -33,14 +34,15 @@ Planes = tuple[LayoutPlane, ...]
 
 def correct_walls(planes: Planes, corrections: Sequence[Correction]) -> tuple[Planes, Remarks]:
     """The planes after ``corrections`` (manhattan frame), one after the other; the same tuple where none."""
-    said, machine, added = NOTHING, {p.id: p for p in planes}, 0
+    said, before, added = NOTHING, {p.id: p for p in planes}, 0
     for correction in corrections:
         if isinstance(correction, AddWall):
             added += 1
             planes, remarks = _add(planes, correction, added)
+            before |= {p.id: p for p in planes if p.id not in before}
         else:
             assert isinstance(correction, HidePlane | KeepPlane | MovePlane)
-            planes, remarks = _change(planes, machine, correction)
+            planes, remarks = _change(planes, before, correction)
         said += remarks
     return planes, said
 
@@ -71,7 +73,7 @@ def _distance(plane: LayoutPlane, at: Point) -> float:
 
 
 def _change(
-    planes: Planes, machine: dict[str, LayoutPlane], correction: HidePlane | KeepPlane | MovePlane
+    planes: Planes, first: dict[str, LayoutPlane], correction: HidePlane | KeepPlane | MovePlane
 ) -> tuple[Planes, Remarks]:
     found = find_plane(planes, correction.plane)
     if found is None and isinstance(correction, KeepPlane):
@@ -81,9 +83,10 @@ def _change(
     if found is None:
         where = place(correction.plane.at)
         return planes, Remarks(warnings=(f"The wall moved from {where} is not there any more.",))
-    before = machine.get(found.id, found)
+    before = first.get(found.id, found)
     changed = _changed(found, before, correction)
-    remark = Remarks(((found.id, f"wall at {before.offset:.3f} m"),)) if found.id in machine else NOTHING
+    by_machine = found.id in first and not before.by_hand
+    remark = Remarks(((found.id, f"wall at {before.offset:.3f} m"),)) if by_machine else NOTHING
     return tuple(changed if p is found else p for p in planes), remark
 
 
@@ -93,14 +96,10 @@ def _changed(
     if isinstance(correction, HidePlane):
         return replace(plane, by_hand="hidden", walls=np.zeros((0, 2)))
     walls = machine.walls if plane.by_hand == "hidden" else plane.walls
-    if isinstance(correction, KeepPlane):
-        return replace(
-            plane, by_hand="kept" if plane.by_hand in ("", "hidden") else plane.by_hand, walls=walls
-        )
-    offset = correction.to[plane.facing.axis]
-    return replace(
-        plane, by_hand="added" if plane.by_hand == "added" else "moved", offset=offset, walls=walls
-    )
+    if isinstance(correction, MovePlane):
+        plane = replace(plane, offset=correction.to[plane.facing.axis])
+    kept = "kept" if plane.offset == machine.offset else "moved"
+    return replace(plane, by_hand="added" if plane.id.startswith(ADDED) else kept, walls=walls)
 
 
 def _keep_unseen(planes: Planes, correction: KeepPlane) -> tuple[Planes, Remarks]:
@@ -128,7 +127,7 @@ def _add(planes: Planes, wall: AddWall, number: int) -> tuple[Planes, Remarks]:
     run = np.array([_snapped(planes, axis, offset, span)])
     faces = [
         LayoutPlane(
-            f"hw{number}{'ab'[k]}",
+            f"{ADDED}{number}{'ab'[k]}",
             Facing(2 * axis + k),
             offset + (0.5 - k) * wall.thickness,
             walls=run,
