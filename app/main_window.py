@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTa
 from floorcast_app import theme
 from floorcast_app.actions import MENUS
 from floorcast_app.dock_layout import TitleBars, arrange
+from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.toast import Toast
@@ -70,6 +71,7 @@ class MainWindow(QMainWindow):
         self.status = StatusBar(workbench, self)
         self.setStatusBar(self.status)
         self.toast = Toast(self)
+        self.banner = None if unattended else AssumptionsBanner(workbench, self)
         self.empty = EmptyState(workbench, self.recent, self)
         workbench.ui = QtInterface(self)
         workbench.view.changed.connect(self._look_changed)

@@ -13,7 +13,7 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
+from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QSettings, QTranslator
 
 from floorcast_app import theme
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 CONTEXT = "Floorcast"
 LANGUAGES = {"en": "English", "de": "Deutsch"}
+SETTING = "language"  # in the user's settings
 LANGUAGE_VARIABLE = "FLOORCAST_LANGUAGE"  # "de" or "en": before the user's choice and the system's language
 
 _installed: list[QTranslator] = []
@@ -64,7 +65,7 @@ def install_translator(app: QApplication, wanted: str = "") -> str:
     """Show everything in the chosen language from now on; returns it."""
     while _installed:
         app.removeTranslator(_installed.pop())
-    language = choose_language(wanted)
+    language = choose_language(wanted or str(QSettings().value(SETTING, "")))
     if language == "en":
         return language
     qt_folder = QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)

@@ -167,6 +167,7 @@ class LayersPanel(Panel):
         spin.setSingleStep(0.5)
         spin.setSuffix(" m")
         spin.setMinimumWidth(72)
+        spin.setAlignment(Qt.AlignmentFlag.AlignRight)
         spin.valueChanged.connect(self._section_typed)
         return spin
 
