@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from floorcast_app.point_store import Points
 from floorcast_app.rendering import kernels, ramps
 from floorcast_app.theme import colours as theme_colours
-from floorplan_core.model import Facing, FloorPlan
+from floorplan_core.model import Facing, FloorPlan, LocalFrame
 
 Float = NDArray[np.float64]
 Floats = NDArray[np.float32]
@@ -59,11 +59,26 @@ class Paint:
     heights: tuple[float, float] | None = None  # metres at both ends of the ramp, where heights are shown
 
 
-def scene_matrix(plan: FloorPlan | None, floor: float = 0.0) -> Float:
-    """(3, 4) local frame to scene; before there is a plan only ``floor`` (metres, local) is subtracted."""
-    rotation = np.eye(3) if plan is None else plan.frame.rotation
-    level = floor if plan is None else plan.frame.floor_z
-    return np.column_stack([rotation, [0.0, 0.0, -level]])
+def scene_matrix(
+    plan: FloorPlan | None, floor: float = 0.0, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Float:
+    """(3, 4) local frame of the points to the scene.
+
+    :param floor: metres, local: what is subtracted from heights before there is a plan.
+    :param origin: metres, the origin of the plan's own local frame in that of the points.
+    """
+    if plan is None:
+        return np.column_stack([np.eye(3), [0.0, 0.0, -floor]])
+    moved = plan.frame.rotation @ np.array(origin)
+    return np.column_stack([plan.frame.rotation, -moved - [0.0, 0.0, plan.frame.floor_z]])
+
+
+def plan_origin(plan: FloorPlan | None, points: LocalFrame | None) -> tuple[float, float, float]:
+    """Metres: where the plan's local frame has its origin in the local frame ``points``."""
+    if plan is None or points is None:
+        return 0.0, 0.0, 0.0
+    x, y, z = (plan.local_frame.shift - points.shift).tolist()
+    return x, y, z
 
 
 def make_cloud(points: Points, matrix: Float) -> Cloud:

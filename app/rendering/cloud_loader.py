@@ -24,6 +24,7 @@ class Wanted:
     plan: FloorPlan | None
     colour: str  # one of POINT_COLOURS
     theme: str
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  # metres: of the plan's local frame in the points'
 
 
 @dataclass(frozen=True)
@@ -44,11 +45,12 @@ class CloudMaker:
 
     def load(self, wanted: Wanted) -> Loaded:
         """Points of the store as it is now."""
-        cloud, matrix = self._cloud(wanted.store, wanted.plan)
+        cloud, matrix = self._cloud(wanted)
         return Loaded(wanted, cloud, paint(cloud, wanted.colour, wanted.plan, wanted.theme), matrix)
 
-    def _cloud(self, store: PointStore, plan: FloorPlan | None) -> tuple[Cloud, Float]:
-        count, matrix = len(store), None if plan is None else scene_matrix(plan)
+    def _cloud(self, wanted: Wanted) -> tuple[Cloud, Float]:
+        store, plan = wanted.store, wanted.plan
+        count, matrix = len(store), None if plan is None else scene_matrix(plan, origin=wanted.origin)
         kept = self._kept
         if kept is not None and kept[0] is store and kept[1] == count and _near(kept[2], matrix):
             return kept[3], kept[2]

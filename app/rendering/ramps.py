@@ -73,6 +73,12 @@ def plane_colours(count: int, theme: str) -> Colours:
     return pack(_from_oklab(np.column_stack([lightness, 0.13 * np.cos(hue), 0.13 * np.sin(hue)])))
 
 
+def mixed(under: int, over: int, share: float) -> int:
+    """``share`` (0 to 1) of ``over`` in ``under``, all 0xRRGGBB."""
+    parts = ((((under >> s) & 255) * (1 - share) + ((over >> s) & 255) * share, s) for s in (16, 8, 0))
+    return sum(round(part) << s for part, s in parts)
+
+
 def shifted(colour: str, lighter: float) -> int:
     """``#rrggbb`` with its OKLab lightness changed by ``lighter`` (-1 to 1), as 0xRRGGBB."""
     lab = _to_oklab(np.array([[int(colour[i : i + 2], 16) for i in (1, 3, 5)]]) / 255.0)

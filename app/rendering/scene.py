@@ -31,6 +31,7 @@ DOOR_HEIGHT = 2.05  # metres, where no lintel was seen
 HATCH = 3  # pixels of a stripe: what was predicted
 
 ALPHA = {"wall": 62, "bare_wall": 110, "door": 150, "floor": 165, "predicted": 110}  # of 256
+SELECTED_TINT = 0.55  # share of the selection's colour in what is selected
 HIGHLIGHT = {"wall": 140, "door": 210, "floor": 190}
 
 
@@ -119,7 +120,7 @@ class _View:
         holds = self._holds
         fill = {"room": holds.room, "corridor": holds.corridor}.get(region.label, holds.other)
         alpha = HIGHLIGHT["floor"] if lit else ALPHA["floor"]
-        self._floors.surface(shape.triangles, self._tint(item, fill), alpha, owner)
+        self._floors.surface(shape.triangles, self._tint(item, ramps.packed(fill)), alpha, owner)
         ink = ramps.shifted(fill, -0.25 if self._look.theme == "light" else 0.25)
         for side in region.sides:
             ends = self._in_section(np.array([side.start, side.end]))
@@ -147,7 +148,7 @@ class _View:
             return
         owner, lit = self._own(item), self._lit(item)
         bare = "points" not in self._look.layers
-        colour = self._tint(item, None) or int(self._facing[plane.facing])
+        colour = self._tint(item, int(self._facing[plane.facing]))
         alpha = HIGHLIGHT["wall"] if lit else ALPHA["bare_wall" if bare else "wall"]
         seen = {tuple(np.round(run, 3)) for run in plane.observed}
         for run in plane.walls if len(plane.walls) else plane.observed:
@@ -168,7 +169,7 @@ class _View:
             return
         owner, lit = self._own(item), self._lit(item)
         top = min(door.height or DOOR_HEIGHT, self._top)
-        colour = self._tint(item, None) or ramps.packed(self._holds.door)
+        colour = self._tint(item, ramps.packed(self._holds.door))
         half = np.zeros(2)
         half[door.axis] = max(door.thickness, 0.04) / 2
         alpha = HIGHLIGHT["door"] if lit else ALPHA["door"]
@@ -222,11 +223,11 @@ class _View:
             return ramps.packed(self._holds.selection)
         return ramps.packed(self._holds.hover) if item == self._hovered else 0
 
-    def _tint(self, item: Item, plain: str | None) -> int:
-        """The fill of an item; 0 where ``plain`` is None and it is not selected."""
-        if item in self._selected:
-            return ramps.packed(self._holds.selection)
-        return ramps.packed(plain) if plain is not None else 0
+    def _tint(self, item: Item, plain: int) -> int:
+        """The fill of an item: what is selected leans to the colour of the selection."""
+        if item not in self._selected:
+            return plain
+        return ramps.mixed(plain, ramps.packed(self._holds.selection), SELECTED_TINT)
 
     def _in_section(self, ends: Float) -> Float | None:
         """(2, 2) the part of an axis-aligned line inside the section box; None where there is none."""

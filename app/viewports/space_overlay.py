@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QLinearGradient, QPainter, QPen
 
 from floorcast_app import theme
 from floorcast_app.format import area
@@ -16,6 +17,7 @@ from floorcast_app.rendering.cloud import Paint, facing_colours
 from floorcast_app.rendering.scene import Label
 from floorcast_app.rendering.shapes import grid_step
 from floorcast_app.selection import Item
+from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorplan_core.model import Facing
 
@@ -24,6 +26,8 @@ NAME_SIZE, SMALL_SIZE = 12, 11  # pixels of text
 AXIS_LENGTH = 26.0  # pixels
 RAMP_WIDTH, RAMP_HEIGHT = 10.0, 112.0  # pixels
 LOWEST_FOR_NAMES = 12.0  # degrees of elevation: seen from lower, names lie on top of each other
+PLATE = 0.86  # opacity of what text stands on
+ROOM_SHARE = 0.9  # of a region's width in the picture that its name may take
 SMALLEST = 240  # pixels: in a smaller pane only names are written
 FOOT = 0.3048  # metres
 
@@ -41,11 +45,6 @@ class Overlay:
     grid: bool = True
 
 
-def tr(text: str) -> str:
-    """The text in the user's language."""
-    return QCoreApplication.translate("SpaceView", text)
-
-
 def draw_overlay(painter: QPainter, overlay: Overlay, width: int, height: int) -> None:
     """Write on a picture of ``width`` x ``height`` pixels."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -55,10 +54,8 @@ def draw_overlay(painter: QPainter, overlay: Overlay, width: int, height: int) -
         _names(painter, overlay, camera)
     if min(width, height) >= SMALLEST:
         _axes(painter, camera, look)
-        if overlay.grid:
-            _scale(painter, look, width, height)
+        _legend(painter, overlay, width, height)
         if overlay.paint is not None:
-            _legend(painter, overlay.paint, look, width, height)
             _note(painter, overlay.paint, look)
     if overlay.message:
         _message(painter, overlay.message, look, width, height)
@@ -70,33 +67,49 @@ def _names(painter: QPainter, overlay: Overlay, camera: Camera) -> None:
     order = sorted(overlay.labels, key=lambda label: (label.item not in lit, -label.area, label.text))
     places = camera.project(np.array([label.at for label in order]))
     taken: list[QRectF] = []
-    for label, (x, y, _) in zip(order, places.tolist(), strict=True):
+    for label, (x, y, depth) in zip(order, places.tolist(), strict=True):
         if not (0 <= x <= camera.width and 0 <= y <= camera.height):
             continue
-        rect = _name_rect(label, QPointF(x, y), overlay.look.units)
-        if not any(rect.intersects(other) for other in taken):
+        room = math.sqrt(label.area) * camera.focal / depth  # pixels across the region
+        lines = _lines_of(label, overlay.look.units, math.inf if label.item in lit else room)
+        rect = _name_rect(lines, QPointF(x, y))
+        if lines and not any(rect.intersects(other) for other in taken):
             taken.append(rect)
-            _name(painter, label, rect, overlay)
+            _name(painter, lines, rect, label.item, overlay)
 
 
-def _name_rect(label: Label, at: QPointF, units: str) -> QRectF:
-    name = QFontMetricsF(theme.font(NAME_SIZE, 600)).horizontalAdvance(label.text)
-    size = QFontMetricsF(theme.font(SMALL_SIZE)).horizontalAdvance(area(label.area, units))
-    width, height = max(name, size) + 14, NAME_SIZE + SMALL_SIZE + 13.0
+def _lines_of(label: Label, units: str, room: float) -> tuple[str, ...]:
+    """Name and area, the name alone, or nothing: what fits into ``room`` pixels."""
+    lines = (label.text, area(label.area, units))
+    while lines and _name_rect(lines, QPointF()).width() > ROOM_SHARE * room:
+        lines = lines[:-1]
+    return lines
+
+
+def _name_rect(lines: tuple[str, ...], at: QPointF) -> QRectF:
+    """Around the name in the first line and what follows in smaller ones."""
+    fonts = (theme.font(NAME_SIZE, 600), theme.font(SMALL_SIZE))
+    widths = [QFontMetricsF(font).horizontalAdvance(text) for font, text in zip(fonts, lines, strict=False)]
+    width, height = max([*widths, 8.0]) + 12, NAME_SIZE + 8.0 + (SMALL_SIZE + 4.0) * (len(lines) - 1)
     return QRectF(at.x() - width / 2, at.y() - height / 2, width, height)
 
 
-def _name(painter: QPainter, label: Label, rect: QRectF, overlay: Overlay) -> None:
+def _name(painter: QPainter, lines: tuple[str, ...], rect: QRectF, item: Item, overlay: Overlay) -> None:
     holds = theme.colours(overlay.look.theme)
-    edge = holds.selection if label.item in overlay.selected else holds.line
-    edge = holds.hover if label.item == overlay.hovered else edge
+    edge = holds.hover if item == overlay.hovered else holds.line
+    _plate(painter, rect, holds, holds.selection if item in overlay.selected else edge)
+    upper = QRectF(rect.left(), rect.top() + 2, rect.width(), NAME_SIZE + 5)
+    _text(painter, upper, lines[0], holds.text, NAME_SIZE, 600)
+    for text in lines[1:]:
+        lower = QRectF(rect.left(), upper.bottom(), rect.width(), SMALL_SIZE + 4)
+        _text(painter, lower, text, holds.muted, SMALL_SIZE)
+
+
+def _plate(painter: QPainter, rect: QRectF, holds: theme.Colours, edge: str) -> None:
+    """What text stands on, so that it can be read over points."""
     painter.setPen(QPen(QColor(edge), 1.0))
-    painter.setBrush(_faded(holds.panel, 0.86))
+    painter.setBrush(_faded(holds.panel, PLATE))
     painter.drawRoundedRect(rect, 6, 6)
-    upper = QRectF(rect.left(), rect.top() + 3, rect.width(), NAME_SIZE + 5)
-    lower = QRectF(rect.left(), upper.bottom(), rect.width(), SMALL_SIZE + 4)
-    _text(painter, upper, label.text, holds.text, NAME_SIZE, 600)
-    _text(painter, lower, area(label.area, overlay.look.units), holds.muted, SMALL_SIZE)
 
 
 def _axes(painter: QPainter, camera: Camera, look: Look) -> None:
@@ -117,45 +130,59 @@ def _axes(painter: QPainter, camera: Camera, look: Look) -> None:
             _text(painter, QRectF(at.x() - 8, at.y() - 8, 16, 16), name, colour, SMALL_SIZE, 600)
 
 
-def _scale(painter: QPainter, look: Look, width: int, height: int) -> None:
-    holds = theme.colours(look.theme)
-    step = shown_grid_step(look)
-    number = f"{step / FOOT:g} ft" if look.units == "ft-in" else f"{step:g} m"
-    text = tr("Grid {step}").format(step=number)
-    rect = QRectF(width - MARGIN - 140, height - MARGIN - 14, 140, 16)
-    _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignRight)
-
-
 def shown_grid_step(look: Look) -> float:
     """Metres between the lines of the floor's grid: whole feet where lengths are shown in feet."""
     unit = FOOT if look.units == "ft-in" else 1.0
     return grid_step(look.span / unit) * unit
 
 
-def _legend(painter: QPainter, paint: Paint, look: Look, width: int, height: int) -> None:
-    """What the colours of the points mean, at the right."""
-    if paint.heights is not None:
-        _ramp(painter, paint.heights, look, width, height)
-    elif look.point_colour == "facing":
-        _facings(painter, look, width, height)
-
-
-def _ramp(painter: QPainter, heights: tuple[float, float], look: Look, width: int, height: int) -> None:
+def _legend(painter: QPainter, overlay: Overlay, width: int, height: int) -> None:
+    """What the colours of the points mean, and the grid's step, on a plate at the right."""
+    look, paint = overlay.look, overlay.paint
     holds = theme.colours(look.theme)
-    bar = QRectF(width - MARGIN - RAMP_WIDTH, height - MARGIN - 30 - RAMP_HEIGHT, RAMP_WIDTH, RAMP_HEIGHT)
+    ramp = paint is not None and paint.heights is not None
+    facings = paint is not None and not ramp and look.point_colour == "facing"
+    wide = 108.0 if facings else 84.0
+    tall = (
+        (26.0 if overlay.grid else 8.0) + (RAMP_HEIGHT + 12 if ramp else 0) + (18.0 * 4 + 4 if facings else 0)
+    )
+    if not (overlay.grid or ramp or facings):
+        return
+    plate = QRectF(width - MARGIN - wide, height - MARGIN - tall, wide, tall)
+    _plate(painter, plate, holds, holds.line)
+    if ramp and paint is not None and paint.heights is not None:
+        _ramp(painter, paint.heights, look, plate)
+    if facings:
+        _facings(painter, look, plate)
+    if overlay.grid:
+        rect = QRectF(plate.left() + 10, plate.bottom() - 22, wide - 20, 18)
+        _text(painter, rect, _grid_text(look), holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
+
+
+def _grid_text(look: Look) -> str:
+    step = shown_grid_step(look)
+    number = f"{step / FOOT:g} ft" if look.units == "ft-in" else f"{step:g} m"
+    return tr("Grid {step}").format(step=number)
+
+
+def _ramp(painter: QPainter, heights: tuple[float, float], look: Look, plate: QRectF) -> None:
+    holds = theme.colours(look.theme)
+    bar = QRectF(plate.left() + 10, plate.top() + 10, RAMP_WIDTH, RAMP_HEIGHT)
+    gradient = QLinearGradient(bar.topLeft(), bar.bottomLeft())
     colours = ramps.height_ramp(look.theme)[::-1]
+    for share in np.linspace(0.0, 1.0, 17).tolist():
+        gradient.setColorAt(share, QColor(int(colours[round(share * (len(colours) - 1))])))
     painter.setPen(Qt.PenStyle.NoPen)
-    for row in range(int(RAMP_HEIGHT)):
-        painter.setBrush(QColor(int(colours[int(row * len(colours) / RAMP_HEIGHT)])))
-        painter.drawRect(QRectF(bar.left(), bar.top() + row, RAMP_WIDTH, 1.2))
+    painter.setBrush(gradient)
+    painter.drawRoundedRect(bar, 2, 2)
     unit, name = (FOOT, "ft") if look.units == "ft-in" else (1.0, "m")
     low, high = (round(value / unit, 1) + 0.0 for value in heights)
-    for y, text in ((bar.top(), f"{high:.1f} {name}"), (bar.bottom() - 12, f"{low:.1f} {name}")):
-        rect = QRectF(bar.left() - 68, y - 2, 62, 16)
-        _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignRight)
+    for y, text in ((bar.top() - 2, f"{high:.1f} {name}"), (bar.bottom() - 14, f"{low:.1f} {name}")):
+        rect = QRectF(bar.right() + 8, y, 48, 16)
+        _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
 
 
-def _facings(painter: QPainter, look: Look, width: int, height: int) -> None:
+def _facings(painter: QPainter, look: Look, plate: QRectF) -> None:
     """Four swatches: the way the walls look."""
     holds, colours = theme.colours(look.theme), facing_colours(look.theme)
     names = {
@@ -164,14 +191,13 @@ def _facings(painter: QPainter, look: Look, width: int, height: int) -> None:
         Facing.EAST: tr("Faces east"),
         Facing.WEST: tr("Faces west"),
     }
-    top = height - MARGIN - 34 - 18 * len(names)
     for row, (facing, text) in enumerate(names.items()):
-        y = top + 18 * row
+        y = plate.top() + 6 + 18 * row
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(int(colours[facing])))
-        painter.drawRoundedRect(QRectF(width - MARGIN - 12, y + 2, 12, 12), 3, 3)
-        rect = QRectF(width - MARGIN - 140, y, 120, 16)
-        _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignRight)
+        painter.drawRoundedRect(QRectF(plate.left() + 10, y + 3, 10, 10), 3, 3)
+        rect = QRectF(plate.left() + 28, y, plate.width() - 30, 16)
+        _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
 
 
 def _note(painter: QPainter, paint: Paint, look: Look) -> None:
@@ -183,8 +209,10 @@ def _note(painter: QPainter, paint: Paint, look: Look) -> None:
         "plane": tr("Planes are known once there is a plan: points by height"),
     }
     if paint.note:
-        rect = QRectF(MARGIN, MARGIN - 4, 420, 18)
         holds = theme.colours(look.theme)
+        wide = QFontMetricsF(theme.font(SMALL_SIZE)).horizontalAdvance(notes[paint.note])
+        rect = QRectF(MARGIN, MARGIN, wide + 2, 22)
+        _plate(painter, rect.adjusted(-8, 0, 8, 0), holds, holds.line)
         _text(painter, rect, notes[paint.note], holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
 
 

@@ -25,15 +25,16 @@ from floorcast_app.format import count
 from floorcast_app.layers.item_shapes import item_shape
 from floorcast_app.layers.source import source_of
 from floorcast_app.panels.item_menu import item_menu
-from floorcast_app.rendering.cloud import Cloud, scene_matrix
+from floorcast_app.rendering.cloud import Cloud, plan_origin, scene_matrix
 from floorcast_app.rendering.cloud_loader import CloudLoader, CloudMaker, Loaded, Wanted
 from floorcast_app.rendering.frame_worker import FrameWorker, Stage, Subject
 from floorcast_app.rendering.renderer import Frame, Renderer
 from floorcast_app.selection import Item
+from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.canvas import AROUND_ITEM, SMALLEST_SPAN
 from floorcast_app.viewports.plan_camera import framed
-from floorcast_app.viewports.space_overlay import Overlay, draw_overlay, tr
+from floorcast_app.viewports.space_overlay import Overlay, draw_overlay
 from floorcast_app.viewports.space_pointer import SpacePointer
 from floorcast_app.workbench import Workbench
 from floorplan_core.model import FloorPlan
@@ -143,7 +144,13 @@ class SpaceView(QWidget):
 
     def _wanted_now(self) -> Wanted:
         w = self.workbench
-        return Wanted(w.points, w.plan, w.view.look.point_colour, w.view.look.theme)
+        return Wanted(w.points, w.plan, w.view.look.point_colour, w.view.look.theme, self._origin())
+
+    def _origin(self) -> tuple[float, float, float]:
+        session = self.workbench.session
+        return plan_origin(
+            self.workbench.plan, None if session is None else session.reconstruction.local_frame
+        )
 
     def _want_points(self) -> None:
         """Load points and colours as they should be now; until then the old ones stay."""
@@ -205,7 +212,7 @@ class SpaceView(QWidget):
         if self._path[0] is not plan:
             flown = None if session is None else session.reconstruction.trajectory
             if flown is not None:
-                matrix = scene_matrix(plan)
+                matrix = scene_matrix(plan, origin=self._origin())
                 path = flown.origins @ matrix[:, :3].T + matrix[:, 3]
             else:
                 path = np.column_stack([plan.trajectory, np.full(len(plan.trajectory), PATH_HEIGHT)])
