@@ -115,7 +115,10 @@ def _plate(painter: QPainter, rect: QRectF, holds: theme.Colours, edge: str) -> 
 def _axes(painter: QPainter, camera: Camera, look: Look) -> None:
     """The three axes as they lie in the picture, those that point away first."""
     holds = theme.colours(look.theme)
-    middle = QPointF(MARGIN + AXIS_LENGTH + 6, camera.height - MARGIN - AXIS_LENGTH - 6)
+    middle = QPointF(MARGIN + AXIS_LENGTH + 14, camera.height - MARGIN - AXIS_LENGTH - 14)
+    painter.setPen(QPen(QColor(holds.line), 1.0))
+    painter.setBrush(_faded(holds.panel, PLATE))
+    painter.drawEllipse(middle, AXIS_LENGTH + 14, AXIS_LENGTH + 14)
     axes = [("x", holds.plane_ew), ("y", holds.plane_ns), ("z", holds.accent)]
     order = sorted(range(3), key=lambda i: -camera.rotation[2, i])
     for i in order:

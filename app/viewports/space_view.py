@@ -34,6 +34,7 @@ from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.canvas import AROUND_ITEM, SMALLEST_SPAN
 from floorcast_app.viewports.plan_camera import framed
+from floorcast_app.viewports.space_buttons import ViewButtons
 from floorcast_app.viewports.space_overlay import Overlay, draw_overlay
 from floorcast_app.viewports.space_pointer import SpacePointer
 from floorcast_app.workbench import Workbench
@@ -46,6 +47,7 @@ GROWTH = 1.25  # times the points that are shown, from which more are loaded
 PATIENCE = 4.0  # times the seconds that loading took: reading must not be slowed down by showing it
 PATH_HEIGHT = 1.2  # metres above the floor, where only the plan of the path is known
 MOST_PATH = 4000  # corners of the path that are drawn
+INSET = 12  # pixels from the corner of the pane to the buttons
 AROUND = 1.1  # of the extent of the points, when they are brought into view before there is a plan
 NO_PATH = np.zeros((0, 3))
 
@@ -77,6 +79,7 @@ class SpaceView(QWidget):
         self.setMouseTracking(True)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setAccessibleName(tr("3D view"))
+        self.buttons = ViewButtons(workbench, self)
         self._listen()
         self._want_points()
 
@@ -136,6 +139,8 @@ class SpaceView(QWidget):
     def _look_changed(self, before: Look, after: Look) -> None:
         if (before.point_colour, before.theme) != (after.point_colour, after.theme):
             self._want_points()
+        if before.theme != after.theme:
+            self.buttons.wear(after.theme)
         self._ask()
 
     def _survey_changed(self) -> None:
@@ -276,6 +281,7 @@ class SpaceView(QWidget):
     # ---- events -----------------------------------------------------------------------------------------
 
     def resizeEvent(self, event: QResizeEvent) -> None:
+        self.buttons.move(self.width() - self.buttons.width() - INSET, INSET)
         self._ask()
 
     def showEvent(self, event: QShowEvent) -> None:
