@@ -230,7 +230,13 @@ class Workbench:
         """Open a saved project; its survey is read again. An input that moved is asked for."""
         from floorplan_core import project_file
 
-        loaded = project_file.load(path)
+        self.open_loaded(project_file.load(path), path, f"Open {path.name}")
+
+    def open_loaded(self, loaded: Any, path: Path | None, text: str, saved: bool = True) -> None:
+        """Go on with a :class:`floorplan_core.project_file.Project` that was read from anywhere.
+
+        :param path: where the document is saved; None: nowhere yet.
+        """
         self._close_survey()
         self.project = path
         state = DocumentState(
@@ -240,10 +246,13 @@ class Workbench:
             checks=tuple(Check(**c) for c in loaded.checks),
         )
         self.view.put(look_from_dict(loaded.view))
-        self.document.reset(state, f"Open {path.name}")
-        if state.survey is not None and not state.survey.path.exists():
-            self.ui.tell(f"{state.survey.path.name} is not where it was; say where it lies now.", "warning")
-            self.run("file.relocate")
+        self.document.reset(state, text, saved)
+        for note in loaded.notes:
+            self.ui.tell(note, "warning")
+        for missing in loaded.missing:
+            self.ui.tell(f"{missing.name} is not where it was; say where it lies now.", "warning")
+        if state.survey is not None and state.survey.path in loaded.missing:
+            self.try_run("file.relocate")
 
     def save_project(self, path: Path) -> None:
         """Save the document; whole or not at all."""
@@ -312,10 +321,7 @@ class Workbench:
     def to_plan(self, xy: tuple[float, float]) -> tuple[float, float]:
         """Local coordinates to the manhattan frame of the present plan."""
         assert self.plan is not None
-        import numpy as np
-
-        z = self.plan.frame.from_manhattan(np.zeros((1, 2)))[0, 2]
-        x, y, _ = self.plan.frame.to_manhattan(np.array([[*xy, z]]))[0]
+        x, y = self.plan.frame.plan_from_local([xy])[0]
         return float(x), float(y)
 
     # ---- what follows from what -------------------------------------------------------------------------
