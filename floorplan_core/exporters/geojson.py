@@ -51,7 +51,7 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
     polygons = matched([r.polygon for r in plan.regions]) if plan.regions else []
     features = [_region(plan, r, p) for r, p in zip(plan.regions, polygons, strict=True)]
     features += [_door(plan, door) for door in plan.doors]
-    features += [_plane(plan, plane) for plane in plan.planes]
+    features += [_plane(plan, plane) for plane in plan.planes if plane.by_hand != "hidden"]
     features += [_segment(plan, segment) for segment in plan.segments]
     features.append(_speculated(plan, polygons))
     return {"type": "FeatureCollection", "floorcast": _head(plan), "features": features}
@@ -94,6 +94,7 @@ def _region(plan: FloorPlan, region: Region, polygon: Any) -> Json:
         "sides": [_side(plan, side) for side in region.sides],
     }
     properties |= {} if region.height is None else {"height_m": _metres(region.height)}
+    properties |= _corrected(region)
     return _feature(region.id, _polygon(plan, polygon), properties)
 
 
@@ -121,6 +122,7 @@ def _door(plan: FloorPlan, door: Door) -> Json:
         "planes": list(door.planes),
     }
     properties |= {} if door.height is None else {"height_m": _metres(door.height)}
+    properties |= _corrected(door)
     return _feature(door.id, _line(plan, door.line()), properties)
 
 
@@ -137,8 +139,14 @@ def _plane(plan: FloorPlan, plane: LayoutPlane) -> Json:
         "loa": loa_band(plane.residual if plane.support > 0 else None),
         "segments": list(plane.segments),
         "speculated": bool(plane.speculated),
+        **_corrected(plane),
     }
     return _feature(plane.id, _line(plan, np.array(ends)), properties)
+
+
+def _corrected(thing: Region | Door | LayoutPlane) -> Json:
+    """Present only where a person changed the thing."""
+    return {"corrected": True} if thing.by_hand else {}
 
 
 def _segment(plan: FloorPlan, segment: LayoutSegment) -> Json:

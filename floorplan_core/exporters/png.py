@@ -94,14 +94,15 @@ def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (a)."""
     view = view or fit_view(plan_bounds(plan))
     codes, colours = paper(view), (WHITE, RED_LINE, GREEN_LINE, DIM, RED, GREEN)
-    for plane in plan.planes:
+    shown = [p for p in plan.planes if p.by_hand != "hidden"]
+    for plane in shown:
         _dotted(codes, view, plane.facing.axis, plane.offset, 1 + plane.facing.axis)
     points = plan.wall_points
     kind = np.where(points.facing < 0, 3, 4 + points.facing // 2)
     for code in (3, 4, 5):
         _dots(codes, view, points.xy[kind == code], code)
     image, draw = finish(codes, colours, view)
-    count = [sum(p.facing.axis == axis for p in plan.planes) for axis in (0, 1)]
+    count = [sum(p.facing.axis == axis for p in shown) for axis in (0, 1)]
     entries = [(f"x planes ({count[0]})", RED), (f"y planes ({count[1]})", GREEN), ("other points", DIM)]
     _draw_strip(draw, view, entries, INK)
     return image
