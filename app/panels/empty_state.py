@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QMainWindow, QPushBut
 
 from floorcast_app import icons, theme
 from floorcast_app.dialogs.thumbnails import thumbnail
-from floorcast_app.panels.base import GRID, clear, column, label, row
+from floorcast_app.panels.base import GRID, clear, column, label, listener_of, row
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
 
@@ -124,7 +124,7 @@ class DropZone(QFrame):
         layout.addLayout(buttons)
         layout.addStretch(1)
         self._tint()
-        theme.changed.connect(lambda *_: self._tint())
+        theme.changed.connect(listener_of(self, lambda *_: self._tint(), theme.changed))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if event.mimeData().hasUrls():
@@ -145,10 +145,7 @@ class DropZone(QFrame):
         self.style().polish(self)
 
     def _tint(self) -> None:
-        try:
-            self._mark.setPixmap(icons.pixmap("upload", 32, theme.colours().accent))
-        except RuntimeError:  # Qt has deleted the window
-            return
+        self._mark.setPixmap(icons.pixmap("upload", 32, theme.colours().accent))
 
 
 def _card_picture(path: Path) -> QIcon:

@@ -7,7 +7,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QWidget
 
 from floorcast_app import icons, theme
-from floorcast_app.panels.base import GRID
+from floorcast_app.panels.base import GRID, listener_of
 from floorcast_app.translation import tr, tr_text
 
 SECONDS = {"info": 4.0, "warning": 8.0, "error": 0.0}  # 0: stays
@@ -37,6 +37,7 @@ class Toast(QFrame):
         self._gone.setSingleShot(True)
         self._gone.timeout.connect(self.hide)
         parent.installEventFilter(self)
+        theme.changed.connect(listener_of(self, lambda *_: self._dress(), theme.changed))
         self.hide()
 
     @property
