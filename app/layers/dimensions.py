@@ -45,7 +45,7 @@ class DimensionsLayer:
 
 def dimensions_layer(source: PlanSource) -> DimensionsLayer:
     """As on the drawing: a chain above and to the left, the others where they say more, and the arms."""
-    if not source.plan.regions:
+    if not source.drawn.regions:
         return DimensionsLayer((), ())
     taken = shapely.union_all(
         [
@@ -53,7 +53,7 @@ def dimensions_layer(source: PlanSource) -> DimensionsLayer:
             *(shapely.box(*o.bounds) for o in source.walls.openings),
         ]
     )
-    slim = [r for r in source.plan.regions if not is_rectangle(r)]
+    slim = [r for r in source.drawn.regions if not is_rectangle(r)]
     widths = (_width(arm, taken) for r in slim for arm in arms(r.polygon, SLIM))
     rows = (*_rows(source, 1, 1), *_rows(source, 0, -1))
     return DimensionsLayer(rows, tuple(w for w in widths if w is not None))
@@ -61,7 +61,7 @@ def dimensions_layer(source: PlanSource) -> DimensionsLayer:
 
 def _rows(source: PlanSource, axis: int, sign: int) -> list[Row]:
     """The chain of the side ``sign``, that of the other side if it says more, and the whole length."""
-    regions = source.plan.regions
+    regions = source.drawn.regions
     edges = {s: source.extent[axis + (2 if s > 0 else 0)] for s in (-1, 1)}
     one, other = chain(regions, axis, sign), chain(regions, axis, -sign)
     total = (Span(*overall(regions, 1 - axis), float("nan")),)

@@ -28,11 +28,11 @@ class FreeSpaceLayer:
 def free_space_layer(source: PlanSource) -> FreeSpaceLayer:
     """Predicted is what lies in a region and was not seen to be anything."""
     grid = source.plan.grid
-    inside = regions_mask(source.plan.regions, grid)
+    inside = regions_mask(source.drawn.regions, grid)
     codes = np.zeros(grid.states.shape, dtype=np.uint8)
     codes[inside] = PREDICTED
     codes[grid.states == OCCUPIED] = SOLID
     codes[grid.states == FREE] = SEEN_FREE
     x, y = grid.origin.tolist()
-    outlines = tuple(ring for r in source.plan.regions for ring in rings(r.polygon))
+    outlines = tuple(ring for r in source.drawn.regions for ring in rings(r.polygon))
     return FreeSpaceLayer(codes, (x, y), grid.cell, grid.slice_height, outlines)

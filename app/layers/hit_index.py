@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorcast_app.layers.planes import plane_shape
-from floorcast_app.layers.source import PlanSource
+from floorcast_app.layers.source import PlanSource, own_polygon
 from floorcast_app.selection import Item
 from floorcast_app.view_state import Look
 
@@ -29,7 +29,7 @@ class HitIndex:
         lines = [s.lines().reshape(-1, 4) for s in shapes]
         self._lines = np.vstack([np.zeros((0, 4)), *lines])
         self._line_plane = np.repeat(np.arange(len(shapes)), [len(line) for line in lines])
-        self._polygons = np.array([r.polygon for r in source.plan.regions], dtype=object)
+        self._polygons = np.array([own_polygon(r.polygon) for r in source.plan.regions], dtype=object)
         shapely.prepare(self._polygons)
         self._regions = [Item("region", r.id) for r in source.plan.regions]
 

@@ -41,7 +41,7 @@ class RegionsLayer:
 def regions_layer(source: PlanSource) -> RegionsLayer:
     """The regions of the plan; text keeps off the swing of doors."""
     swept = [leaf.sector for made in source.swings for leaf in made]
-    return RegionsLayer(tuple(_shape(r, source, swept) for r in source.plan.regions))
+    return RegionsLayer(tuple(_shape(r, source, swept) for r in source.drawn.regions))
 
 
 def _shape(region: Region, source: PlanSource, swept: list[object]) -> RegionShape:

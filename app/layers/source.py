@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
@@ -28,11 +29,24 @@ def rings(geometry: Any) -> Rings:
     return tuple(shapely.get_coordinates(ring) for p in polygons for ring in (p.exterior, *p.interiors))
 
 
+def with_own_polygons(plan: FloorPlan) -> FloorPlan:
+    """``plan`` with copies of its polygons: GEOS prepares a geometry in place, unseen by other threads."""
+    return replace(plan, regions=tuple(replace(r, polygon=own_polygon(r.polygon)) for r in plan.regions))
+
+
+def own_polygon(polygon: Any) -> Any:
+    """A copy that shares nothing."""
+    import shapely
+
+    return shapely.from_wkb(shapely.to_wkb(polygon))
+
+
 class PlanSource:
     """A plan, and its walls, door swings and predicted floor."""
 
     def __init__(self, plan: FloorPlan) -> None:
         self.plan = plan
+        self.drawn = with_own_polygons(plan)  # what the layers are made from, by one thread at a time
         self.regions: dict[str, Region] = {r.id: r for r in plan.regions}
         self.planes: dict[str, LayoutPlane] = {p.id: p for p in plan.planes}
         self.doors: dict[str, Door] = {d.id: d for d in plan.doors}
@@ -40,17 +54,17 @@ class PlanSource:
     @cached_property
     def walls(self) -> Poche:
         """The solid between the regions, with openings cut."""
-        return poche(self.plan)
+        return poche(self.drawn)
 
     @cached_property
     def swings(self) -> tuple[tuple[Leaf, ...], ...]:
         """The leaves of each opening of :attr:`walls`."""
-        return tuple(leaves(opening, self.plan.regions) for opening in self.walls.openings)
+        return tuple(leaves(opening, self.drawn.regions) for opening in self.walls.openings)
 
     @cached_property
     def predicted(self) -> Any:
         """Shapely geometry of the floor that nobody saw."""
-        return predicted_floor(self.plan)
+        return predicted_floor(self.drawn)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -59,7 +73,7 @@ class PlanSource:
 
         if not self.plan.regions:
             return self.plan.grid.extent
-        x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in self.plan.regions]).tolist()
+        x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in self.drawn.regions]).tolist()
         return x0, y0, x1, y1
 
     @cached_property

@@ -5,7 +5,6 @@ from __future__ import annotations
 from floorcast_app import format
 from floorcast_app.layers.snap_index import Snap
 from floorcast_app.tools.gestures import SNAP, At, Mark, Point, Tool, Typed, distance, straight, towards
-from floorplan_core.exporters.walls import nominal_thickness
 
 SHORTEST = 0.05  # metres: two clicks nearer than this are one
 
@@ -124,9 +123,7 @@ class WallTool(TwoPointTool):
     hint = "Click where the wall begins and where it ends. Type a length to be exact."
 
     def finish(self, start: Point, end: Point) -> None:
-        plan = self.workbench.plan
-        thickness = nominal_thickness(plan.doors) if plan is not None else 0.0
-        self.workbench.try_run("correct.add_wall", start=start, end=end, thickness=thickness)
+        self.workbench.try_run("correct.add_wall", start=start, end=end)
 
 
 class SplitTool(TwoPointTool):

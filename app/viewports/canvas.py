@@ -34,6 +34,7 @@ from floorcast_app.state import DocumentState
 from floorcast_app.tools.gestures import At, Point
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
+from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
@@ -84,6 +85,7 @@ class PlanCanvas(QWidget):
         self._last = QPointF()
         self._moved = False
         self._space = False
+        self._inside = False  # the pointer is over this pane
         self._pointer: Point | None = None  # where the pointer is in another pane
         self._builder = PlanBuilder(self.kinds, self)
         self._builder.built.connect(self._show)
@@ -143,14 +145,12 @@ class PlanCanvas(QWidget):
             (w.pointer_moved, self._pointer_moved),
             (theme.changed, self._theme_changed),
         )
-        for event, listener in self._bound:
-            event.connect(listener)
+        listen(self, self._bound)
 
     def shut_down(self) -> None:
         """Stop listening; the window calls it when it closes."""
         self._builder.drop()
-        for event, listener in self._bound:
-            event.disconnect(listener)
+        stop_listening(self._bound)
 
     def _plan_changed(self, plan: object) -> None:
         if self.workbench.plan is None:
@@ -166,7 +166,7 @@ class PlanCanvas(QWidget):
     def _look_changed(self, before: Look, after: Look) -> None:
         """Panes beside the one that is moved shift their picture, and paint it anew at intervals."""
         moved_only = replace(before, centre=after.centre, span=after.span) == after
-        if moved_only and self._base is not None and not self.underMouse():
+        if moved_only and self._base is not None and not self._inside:
             if not self._settle.isActive():
                 self._settle.start()
             self.update()
@@ -185,7 +185,7 @@ class PlanCanvas(QWidget):
         self.update()
 
     def _pointer_moved(self, x: float | None, y: float | None) -> None:
-        mine = self.underMouse() or x is None or y is None
+        mine = self._inside or x is None or y is None
         self._pointer = None if mine else (x, y)  # type: ignore[assignment]
         self.update()
 
@@ -284,7 +284,7 @@ class PlanCanvas(QWidget):
         paint_marks(painter, frame, toolbox.marks())
         if self._pointer is not None:
             paint_cross(painter, frame, self._pointer)
-        if toolbox.tool.hint and (self.underMouse() or self.hasFocus()):
+        if toolbox.tool.hint and (self._inside or self.hasFocus()):
             paint_hint(painter, frame, tr(toolbox.tool.hint))
 
     def _check_ends(self, id: str) -> tuple[Point, Point] | None:
@@ -342,6 +342,7 @@ class PlanCanvas(QWidget):
             self.workbench.toolbox.press(self._at(event))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._inside, self._pointer = True, None
         here = self.camera.to_plan(event.position().x(), event.position().y())
         self.workbench.pointer_moved.emit(*here)
         if self._press is None:
@@ -383,6 +384,7 @@ class PlanCanvas(QWidget):
         event.accept()
 
     def leaveEvent(self, event: QEvent) -> None:
+        self._inside = False
         self.workbench.selection.hover(None)
         self.workbench.pointer_moved.emit(None, None)
 

@@ -15,6 +15,7 @@ from floorcast_app.layers.evidence import EvidenceLayer, evidence_layer
 from floorcast_app.selection import Item
 from floorcast_app.theme import Colours
 from floorcast_app.translation import tr
+from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_camera import STEP
 from floorcast_app.viewports.plan_frame import (
     BODY,
@@ -51,6 +52,7 @@ class EvidenceView(QWidget):
         self._face = 0
         self._shown = (0.0, 1.0)  # metres along the plane
         self._cursor: float | None = None  # metres along the plane
+        self._inside = False  # the pointer is over this pane
         self._press: QPointF | None = None
         self._last = QPointF()
         self.other = QToolButton(self)
@@ -66,14 +68,12 @@ class EvidenceView(QWidget):
             (w.view.changed, self._look_changed),
             (theme.changed, self._look_changed),
         )
-        for event, listener in self._bound:
-            event.connect(listener)
+        listen(self, self._bound)
         self._selected()
 
     def shut_down(self) -> None:
         """Stop listening; the window calls it when it closes."""
-        for event, listener in self._bound:
-            event.disconnect(listener)
+        stop_listening(self._bound)
 
     def picture(self, width: int, height: int) -> QImage:
         """The pane as an image of ``width`` x ``height`` pixels."""
@@ -105,7 +105,7 @@ class EvidenceView(QWidget):
 
     def _pointer_moved(self, x: float | None, y: float | None) -> None:
         """The pointer of a plan pane, where it is near the plane."""
-        if self.underMouse():
+        if self._inside:
             return
         self._cursor = None
         if x is not None and y is not None and self.evidence is not None:
@@ -253,7 +253,7 @@ class EvidenceView(QWidget):
     # ---- mouse ------------------------------------------------------------------------------------------
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        evidence = self.evidence
+        self._inside, evidence = True, self.evidence
         if evidence is None:
             return
         track = self._tracks(QRectF(self.rect()))[0]
@@ -304,7 +304,7 @@ class EvidenceView(QWidget):
         self.update()
 
     def leaveEvent(self, event: QEvent) -> None:
-        self._cursor = None
+        self._inside, self._cursor = False, None
         self.workbench.selection.hover(None)
         self.workbench.pointer_moved.emit(None, None)
         self.update()

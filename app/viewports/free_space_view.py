@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QSlider, QToolButton, QVBoxLayout,
 from floorcast_app import format, theme
 from floorcast_app.translation import tr
 from floorcast_app.viewports.canvas import PlanCanvas
+from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_frame import SMALL, Frame, colour, draw_text, text_size
 from floorcast_app.workbench import Workbench
 
@@ -78,15 +79,18 @@ class HeightSlider(QFrame):
         self._later.timeout.connect(self._apply)
         self.slider.valueChanged.connect(self._moved)
         self.auto.clicked.connect(lambda: self._set(None))
-        workbench.view.changed.connect(self._look_changed)
-        theme.changed.connect(self._restyle)
+        self._bound = (
+            (workbench.view.changed, self._changed),
+            (workbench.document.changed, self._changed),
+            (theme.changed, self._restyle),
+        )
+        listen(self, self._bound)
         self._restyle("")
         self.follow()
 
     def shut_down(self) -> None:
         """Stop listening."""
-        self._workbench.view.changed.disconnect(self._look_changed)
-        theme.changed.disconnect(self._restyle)
+        stop_listening(self._bound)
 
     def place(self, width: int, height: int) -> None:
         """At the right of a pane of this size."""
@@ -124,7 +128,7 @@ class HeightSlider(QFrame):
         chosen = self._workbench.state.config.occupancy.slice_height
         self.auto.setEnabled(chosen is not None)
 
-    def _look_changed(self, before: object, after: object) -> None:
+    def _changed(self, before: object, after: object) -> None:
         self._show()
 
     def _restyle(self, name: str) -> None:

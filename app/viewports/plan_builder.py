@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from threading import Lock
+
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
 
 from floorcast_app.layers.source import PlanSource, source_of
 from floorcast_app.viewports.plan_layers import LayerView, make_views
 from floorplan_core.model import FloorPlan
 
+_one_at_a_time = Lock()  # the panes share what they draw from
+
 
 class Drawing:
     """A plan with what paints its layers."""
 
     def __init__(self, plan: FloorPlan, kinds: tuple[str, ...]) -> None:
-        self.source: PlanSource = source_of(plan)
-        self.views: dict[str, LayerView] = make_views(self.source, kinds)
-        self.source.hits, self.source.snaps  # noqa: B018 (made here, not at the first move of the pointer)
+        with _one_at_a_time:
+            self.source: PlanSource = source_of(plan)
+            self.views: dict[str, LayerView] = make_views(self.source, kinds)
+            self.source.hits, self.source.snaps  # noqa: B018 (made here, not at the first move of the pointer)
 
 
 class PlanBuilder(QObject):
