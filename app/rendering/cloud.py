@@ -84,10 +84,7 @@ def plan_origin(plan: FloorPlan | None, points: LocalFrame | None) -> tuple[floa
 def make_cloud(points: Points, matrix: Float) -> Cloud:
     """Move the points into the scene and find out how dense they are."""
     xyz = np.empty_like(points.xyz, dtype=np.float32)
-    turn, shift = matrix[:, :3].T.astype(np.float32), matrix[:, 3].astype(np.float32)
-    for at in range(0, len(xyz), BLOCK):
-        np.matmul(points.xyz[at : at + BLOCK], turn, out=xyz[at : at + BLOCK])
-        xyz[at : at + BLOCK] += shift
+    kernels.move(points.xyz, matrix.astype(np.float32), xyz)
     if not len(xyz):
         return Cloud(xyz)
     low, high = np.quantile(xyz[:_SAMPLE, 2], (0.01, 0.99))

@@ -20,7 +20,7 @@ from floorplan_core.model import FloorPlan
 
 TARGET = 0.030  # s for a frame while something moves: 30 a second with what the window itself needs
 REST = 0.15  # s without a new request after which the fine frame is drawn
-FEWEST, MOST = 100_000, 4_000_000  # points of a frame while something moves
+FEWEST, MOST = 250_000, 4_000_000  # points of a frame while something moves
 FIRST = 400_000  # points of the very first one
 
 _CAMERA = {"centre": (0.0, 0.0), "span": 1.0, "azimuth": 0.0, "elevation": 0.0, "workspace": "", "units": ""}

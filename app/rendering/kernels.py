@@ -231,6 +231,15 @@ def halve(image, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**_OPTIONS)
+def move(xyz, matrix, out):  # type: ignore[no-untyped-def]
+    """(N, 3) float32 points by a (3, 4) float32 matrix; BLAS is far slower at this shape."""
+    for i in range(len(xyz)):
+        x, y, z = xyz[i, 0], xyz[i, 1], xyz[i, 2]
+        for axis in range(3):
+            out[i, axis] = matrix[axis, 0] * x + matrix[axis, 1] * y + matrix[axis, 2] * z + matrix[axis, 3]
+
+
+@njit(**_OPTIONS)
 def nearest_planes(xyz, cells, origin, cell, low, high, out):  # type: ignore[no-untyped-def]
     """Which plane explains each point: ``cells`` (ny, nx) int16 holds its number, -1 nothing.
 

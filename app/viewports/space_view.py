@@ -93,7 +93,7 @@ class SpaceView(QWidget):
         """The pane as an image of ``width`` x ``height`` pixels, with all points, drawn here and now."""
         wanted = self._wanted_now()
         loaded = self._loaded if self._shows(wanted) else CloudMaker().load(wanted)
-        subject = self._subject(width, height, loaded)
+        subject = self.subject(width, height, loaded)
         frame = Renderer().render(Stage().request(subject), fine=True)
         assert frame is not None  # nobody stops it
         image = _image_of(frame)
@@ -194,8 +194,9 @@ class SpaceView(QWidget):
         loaded = self._loaded
         return loaded is not None and loaded.wanted == wanted and len(loaded.cloud) == len(wanted.store)
 
-    def _subject(self, width: int, height: int, loaded: Loaded | None) -> Subject:
-        w = self.workbench
+    def subject(self, width: int, height: int, loaded: Loaded | None = None) -> Subject:
+        """What is to be seen in a picture of ``width`` x ``height`` pixels, with the points loaded so far."""
+        w, loaded = self.workbench, loaded or self._loaded
         return Subject(
             w.view.look,
             width,
@@ -226,7 +227,7 @@ class SpaceView(QWidget):
 
     def _ask(self) -> None:
         if self.isVisible() and self.width() > 1 and self.height() > 1:
-            self._worker.ask(self._subject(self.width(), self.height(), self._loaded))
+            self._worker.ask(self.subject(self.width(), self.height()))
 
     def _show_frame(self, frame: Frame, fine: bool) -> None:
         self.frame, self._image = frame, _image_of(frame)
@@ -249,7 +250,7 @@ class SpaceView(QWidget):
             painter.fillRect(self.rect(), self.palette().window())
         else:
             painter.drawImage(QRectF(self.rect()), self._image)
-            subject = self._subject(self.width(), self.height(), self._loaded)
+            subject = self.subject(self.width(), self.height())
             draw_overlay(painter, self._overlay(self.frame, subject), self.width(), self.height())
         if self.hasFocus():
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
