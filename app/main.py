@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import threading
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from floorcast_app.jobs import Jobs
 
 SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
+LAST_WAIT = 60.0  # s for a thread that is compiling or reading; nobody sees it, the window is gone
 
 
 def run(survey: Path | None = None, script: Path | None = None) -> int:
@@ -27,7 +33,8 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
     app = make_application()
     window = make_window(unattended=script is not None)
     assert isinstance(window, MainWindow)
-    threading.Thread(target=_warm_up, daemon=True).start()
+    warming = threading.Thread(target=_warm_up, daemon=True)
+    warming.start()
     if script is not None:
         from floorcast_app.script import run_script
 
@@ -41,21 +48,32 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
             run_script(script, window)
         finally:
             window.close()
+            _let_end(warming, window.workbench.jobs)
         return 0
     window.show()
     if survey is not None:
         window.workbench.try_run("file.open", path=survey)
-    return int(app.exec())
+    status = int(app.exec())
+    _let_end(warming, window.workbench.jobs)
+    return status
+
+
+def _let_end(warming: threading.Thread, jobs: Jobs) -> None:
+    """Threads of ours end before the interpreter does: one that is torn off aborts the program."""
+    warming.join(LAST_WAIT)
+    jobs.wait(LAST_WAIT)
 
 
 def make_application():  # type: ignore[no-untyped-def]
     """The QApplication, with its name, theme, font and language."""
+    from PySide6.QtCore import qInstallMessageHandler
     from PySide6.QtWidgets import QApplication
 
     from floorcast_app import theme
     from floorcast_app.translation import install_translator
     from floorplan_core import __version__
 
+    qInstallMessageHandler(_log)
     app = QApplication.instance() or QApplication(sys.argv[:1])
     app.setApplicationName("Floorcast")
     app.setOrganizationName("Floorcast")
@@ -63,6 +81,11 @@ def make_application():  # type: ignore[no-untyped-def]
     install_translator(app)
     theme.apply_theme(app, "light")
     return app
+
+
+def _log(kind: object, context: object, text: str) -> None:
+    """Qt's own remarks go to the log of Python: a user of a script reads our sentences only."""
+    logging.getLogger("floorcast.qt").debug("%s", text)
 
 
 def make_window(unattended: bool = False):  # type: ignore[no-untyped-def]

@@ -248,12 +248,14 @@ class MainWindow(QMainWindow):
         self.addToolBar(bar)
 
     def _window_picture(self, width: int, height: int) -> QImage:
-        size = self.size()
-        self.resize(width, height)
+        """The whole window; one smaller than it can be is scaled."""
+        size, wanted = self.size(), QSize(width, height)
+        self.resize(wanted)
         QApplication.processEvents()
         image = self.grab().toImage()
         self.resize(size)
-        return image
+        smooth = Qt.TransformationMode.SmoothTransformation
+        return image if image.size() == wanted else image.scaled(wanted, mode=smooth)
 
     def _restore(self) -> None:
         geometry = self._settings.value("window/geometry")

@@ -1,0 +1,76 @@
+"""``floorcast gui --script``: sessions without a display, by the command."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.app.pump import SAMPLE
+
+
+def gui(script: Path) -> subprocess.CompletedProcess[str]:
+    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+    return subprocess.run(
+        [sys.executable, "-m", "floorplan_core.cli.main", "gui", "--script", str(script)],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=240,
+        check=False,
+    )
+
+
+def test_a_python_session_opens_edits_pictures_and_exports(tmp_path: Path) -> None:
+    session = tmp_path / "session.py"
+    session.write_text(
+        f"""
+app.run("file.open", path={str(SAMPLE)!r})
+app.run("correct.rename", region=app.workbench.plan.regions[0].id, name="Foyer")
+app.picture({str(tmp_path / "plan.png")!r}, pane="floor_plan", width=800, height=600)
+app.run("file.export", path={str(tmp_path / "plan.geojson")!r})
+app.run("file.save", path={str(tmp_path / "survey.floorcast")!r})
+assert not app.workbench.document.dirty
+app.run("file.open", path={str(tmp_path / "survey.floorcast")!r})
+assert "Foyer" in [region.name for region in app.workbench.plan.regions]
+"""
+    )
+    done = gui(session)
+    assert done.returncode == 0, done.stderr
+    names = [
+        f["properties"].get("name") for f in json.loads((tmp_path / "plan.geojson").read_text())["features"]
+    ]
+    assert "Foyer" in names
+    assert (tmp_path / "plan.png").stat().st_size > 5000
+
+
+def test_a_recorded_list_of_actions(tmp_path: Path) -> None:
+    session = tmp_path / "session.json"
+    actions = [
+        {"action": "file.open", "path": str(SAMPLE)},
+        {"action": "plan.set", "name": "doors.max_width", "value": 1.1},
+        {"action": "file.export", "path": str(tmp_path / "plan.svg")},
+    ]
+    session.write_text(json.dumps(actions))
+    done = gui(session)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "plan.svg").read_text().startswith("<?xml")
+
+
+def test_what_goes_wrong_is_one_sentence_and_a_status(tmp_path: Path) -> None:
+    for name, text, status, said in (
+        ("a.py", "app.run('file.open', path='nowhere.ply')", 3, "does not exist"),
+        ("b.py", "app.run('file.explode')", 2, "no action"),
+        ("c.py", "1 / 0", 2, "ZeroDivisionError"),
+        ("d.json", "{", 3, "not a list of actions"),
+        ("e.py", "app.run('file.export', path='plan.svg')", 2, "not possible now"),
+        ("f.py", "app.run('file.open', colour='red')", 2, "colour"),
+    ):
+        script = tmp_path / name
+        script.write_text(text)
+        done = gui(script)
+        assert done.returncode == status, (name, done.stderr)
+        assert said in done.stderr and "Traceback" not in done.stderr, (name, done.stderr)
+    assert gui(tmp_path / "missing.py").returncode == 3
