@@ -29,8 +29,13 @@ class Section(BaseModel):
 class InputConfig(Section):
     """How the file is read."""
 
-    unit: Literal["auto", "m", "cm", "mm", "ft"] = setting("auto", "", "Unit of the file's coordinates.")
+    unit: Literal["auto", "m", "cm", "mm", "ft", "us-ft"] = setting(
+        "auto", "", "Unit of the file's coordinates; us-ft is the US survey foot."
+    )
     up: Literal["auto", "x", "y", "z", "-x", "-y", "-z"] = setting("auto", "", "The file's up axis.")
+    mirrored: bool = setting(
+        False, "", "The file's axes are left-handed; its plan would come out mirrored otherwise."
+    )
     max_range: float = setting(30.0, "m", "Points farther from their sensor are dropped.", gt=0.5, le=500)
     min_range: float = setting(0.05, "m", "Points nearer to their sensor are dropped.", ge=0, le=5)
 
@@ -172,7 +177,7 @@ class DoorsConfig(Section):
     min_response: float = setting(
         0.25, "", "Smallest response of the matched filter, 1 being a clean aperture.", ge=0, le=1
     )
-    min_confidence: float = setting(0.35, "", "Doors of less confidence are not reported.", ge=0, le=1)
+    min_confidence: float = setting(0.35, "", "Doors that are less probable are not reported.", ge=0, le=1)
     max_thickness: float = setting(
         0.6, "m", "Two faces farther apart than this are not one wall.", gt=0.02, le=2
     )

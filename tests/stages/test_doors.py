@@ -9,7 +9,7 @@ import pytest
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, WallProfile
-from floorplan_core.stages.doors import door_response
+from floorplan_core.stages.door_apertures import door_response
 from tests.box_world import EYE, LINTEL, Run, run, stations, survey, two_rooms, wall
 
 WIDTH_TOLERANCE = 0.03  # m

@@ -1,0 +1,167 @@
+"""What tells a door from a gap in the data: measures of an aperture, their words, a calibrated confidence.
+
+In: a plane with its profile, an aperture in it, the voxel columns and the sensor's path. Out: measures from 0
+to 1. A cabinet that hides a wall leaves an aperture with a lintel and wall on both sides too, but nothing was
+seen behind it; a window is free to pass above its sill only, and nothing is free beyond its pane; rays cross
+the thickness of the wall from the floor up where there is a door. So these measures weigh most.
+The confidence is the probability that the aperture is a door or an opening of the building: a logistic
+regression on the apertures of the tuning half of the accuracy benchmark; ``docs/accuracy.md`` has its
+reliability on the other half.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.model import LayoutPlane, WallProfile
+from floorplan_core.model.evidence import Evidence
+
+Float = NDArray[np.float64]
+
+_BODY = (0.4, 1.8)  # m above the floor at which a door is open
+_FOOT = (0.2, 0.8)  # m above the floor: below the sill of a window, above skirting and threshold
+_WITHIN, _BEYOND = 0.08, 0.25  # m behind the face: inside any wall, and on the other side of an inner one
+_NEAR = (-0.05, 0.15)  # m before and behind the face in which a sill or a shut leaf stands
+_FLANK = 0.5  # m beside an aperture in which wall is looked for
+_STANDS = 0.2  # of the height below 2 m, seen: wall
+_STEP = 2.0  # m between two poses, the longest step that is still a path
+_NO_LINTELS = 0.9  # taken for the lintel where the survey shows none at all: the share over usual doors
+_DECIMALS = 3
+
+# Log odds of a whole measure, and of none. Fitted on 439 apertures, penalty 0.002 on the squared weights.
+_BIAS = -6.64
+_WEIGHTS = {
+    "open": 1.54,
+    "foot": 1.89,
+    "beyond": 1.70,
+    "sill": -0.66,
+    "passage": 2.06,
+    "path": 1.00,
+    "lintel": 1.14,
+    "flanks": 0.62,
+    "flank": 0.68,
+    "response": 1.17,
+    "both": 0.48,
+}
+
+
+@dataclass(frozen=True)
+class DoorMeasures:
+    """Evidence about one aperture, all 0 to 1; what is open, free or seen is a share of its area or width."""
+
+    open: float  # free within the thickness of the wall, at the heights of a body
+    foot: float  # the same near the floor
+    beyond: float  # free just behind the wall
+    sill: float  # surface seen near the floor, in or close to the plane
+    passage: float  # width at which free space reaches straight through the wall
+    path: float  # 1 where the sensor itself went through
+    lintel: float  # width above which wall was seen
+    flanks: float  # wall on the side where there is less of it, as a share of half a metre
+    flank: float  # and on the other side
+    response: float  # of the matched filter
+    both: float = 0.0  # 1 where the other face of the wall shows the same aperture
+
+    def merged(self, other: DoorMeasures, both: bool) -> DoorMeasures:
+        """The better of each; ``both``: the two are opposite faces of one wall."""
+        names = [f.name for f in fields(self)]
+        best = DoorMeasures(**{n: max(getattr(self, n), getattr(other, n)) for n in names})
+        return replace(best, both=max(best.both, float(both)))
+
+    def words(self) -> tuple[str, ...]:
+        """What speaks for a door, in words."""
+        found = {
+            "open": self.open > 0.4,
+            "passage": self.passage > 0.4,
+            "path": self.path > 0,
+            "lintel": self.lintel > 0.5,
+            "wall on both sides": self.flanks >= 0.5,
+            "corner": self.flanks < 0.5 <= self.flank,
+            "both faces": self.both > 0,
+        }
+        return tuple(word for word, true in found.items() if true)
+
+    def confidence(self, lintels: bool) -> float:
+        """Probability of a door or opening; ``lintels``: the survey shows any, so that none here counts."""
+        seen = self if lintels else replace(self, lintel=_NO_LINTELS)
+        odds = _BIAS + sum(weight * getattr(seen, name) for name, weight in _WEIGHTS.items())
+        return round(1.0 / (1.0 + math.exp(-odds)), _DECIMALS)
+
+
+def measure(
+    plane: LayoutPlane, start: float, end: float, response: float, evidence: Evidence
+) -> DoorMeasures:
+    """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``)."""
+    profile = plane.profile
+    assert profile is not None
+    a, b = (round((v - profile.start) / profile.step) for v in (start, end))
+    inner = slice(max(a + 1, 0), max(b - 1, a + 2))
+    flanks = sorted(_standing(low, profile.step) for low in _beside(profile, a, b))
+    return DoorMeasures(
+        open=_mean(free_share(plane, evidence)[inner]),
+        foot=_mean(free_share(plane, evidence, body=_FOOT)[inner]),
+        beyond=_mean(free_share(plane, evidence, _BEYOND)[inner]),
+        sill=_mean(_seen_low(plane, evidence)[inner]),
+        passage=_mean(profile.through[inner] > 0.4),
+        path=float(_path_crosses(plane, start, end, evidence)),
+        lintel=_mean(profile.high[inner] > 0),
+        flanks=flanks[0],
+        flank=flanks[1],
+        response=min(response, 1.0),
+    )
+
+
+def _mean(values: NDArray[np.generic]) -> float:
+    return float(values.mean()) if len(values) else 0.0
+
+
+def _beside(profile: WallProfile, a: int, b: int) -> tuple[Float, Float]:
+    """What was seen of the wall low beside bins a to b."""
+    reach = round(_FLANK / profile.step)
+    return profile.low[max(0, a - reach) : max(a, 0)], profile.low[b : b + reach]
+
+
+def _standing(low: Float, step: float) -> float:
+    """0 to 1: wall in one flank."""
+    return min(1.0, float((low > _STANDS).sum()) * step / _FLANK)
+
+
+def free_share(
+    plane: LayoutPlane, evidence: Evidence, depth: float = _WITHIN, body: tuple[float, float] = _BODY
+) -> Float:
+    """(bins,) 0 to 1: share of the heights ``body`` that are free ``depth`` metres behind the wall's face."""
+    axis = plane.facing.axis
+    free = evidence.free if axis == 0 else evidence.free.T
+    at = plane.offset - plane.facing.sign * depth
+    column = int(np.clip((at - evidence.origin[axis]) / evidence.cell, 0, free.shape[1] - 1))
+    mask = height_mask(*body)
+    share: Float = count_bits(free[:, column] & mask) / int(mask).bit_count()
+    return np.repeat(share, 2)
+
+
+def _seen_low(plane: LayoutPlane, evidence: Evidence) -> Float:
+    """(bins,) 0 to 1: share of the heights near the floor at which a surface was seen close to the plane."""
+    axis = plane.facing.axis
+    hits = evidence.hits if axis == 0 else evidence.hits.T
+    at = plane.offset - plane.facing.sign * np.arange(_NEAR[0], _NEAR[1] + 1e-6, evidence.fine)
+    columns = ((at - evidence.origin[axis]) / evidence.fine).astype(int)
+    mask = height_mask(*_FOOT)
+    seen = np.bitwise_or.reduce(hits[:, np.unique(np.clip(columns, 0, hits.shape[1] - 1))], axis=1) & mask
+    share: Float = count_bits(seen) / int(mask).bit_count()
+    return share
+
+
+def _path_crosses(plane: LayoutPlane, start: float, end: float, evidence: Evidence) -> bool:
+    """True where the sensor itself went through the aperture."""
+    a = plane.facing.axis
+    u, v = evidence.path[:, a] - plane.offset, evidence.path[:, 1 - a]
+    if len(u) < 2:
+        return False
+    k = np.flatnonzero(u[:-1] * u[1:] < 0)
+    step = np.hypot(u[k + 1] - u[k], v[k + 1] - v[k])
+    at = v[k] + (v[k + 1] - v[k]) * u[k] / (u[k] - u[k + 1])
+    return bool(((at > start) & (at < end) & (step < _STEP)).any())
