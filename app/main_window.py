@@ -21,6 +21,7 @@ from floorcast_app.actions import MENUS
 from floorcast_app.dock_layout import TitleBars, arrange
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
+from floorcast_app.panels.recovery_banner import RecoveryBanner
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.toast import Toast
 from floorcast_app.panes import PANES
@@ -73,6 +74,7 @@ class MainWindow(QMainWindow):
         self.toast = Toast(self)
         self.banner = None if unattended else AssumptionsBanner(workbench, self)
         self.empty = EmptyState(workbench, self.recent, self)
+        self.recovery = None if unattended else RecoveryBanner(workbench, self)
         workbench.ui = QtInterface(self)
         workbench.view.changed.connect(self._look_changed)
         workbench.document.saved_changed.connect(self._retitle)
@@ -135,6 +137,8 @@ class MainWindow(QMainWindow):
         self._remember()
         self.workbench.jobs.cancel()
         self.workbench.jobs.wait(LAST_WAIT)
+        if self.recovery is not None:
+            self.recovery.end()
         for dock in self.docks.values():
             stop = getattr(dock.widget(), "shut_down", None)
             if stop is not None:

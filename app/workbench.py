@@ -38,7 +38,6 @@ class Interface(Protocol):
     def ask_save(self, title: str, filters: str, suggested: str) -> Path | None: ...
     def ask_text(self, title: str, label: str, text: str) -> str | None: ...
     def ask_yes(self, text: str, detail: str) -> bool: ...
-    def confirm_axes(self, assumptions: tuple[str, ...], unit: str, up: str) -> tuple[str, str] | None: ...
     def tell(self, text: str, kind: str = "info") -> None: ...  # kind: "info", "warning" or "error"
     def show(self, what: str, **arguments: Any) -> Any: ...  # a dialog or pane by name
 
@@ -60,9 +59,6 @@ class NoInterface:
 
     def ask_yes(self, text: str, detail: str) -> bool:
         return True
-
-    def confirm_axes(self, assumptions: tuple[str, ...], unit: str, up: str) -> tuple[str, str] | None:
-        return unit, up
 
     def tell(self, text: str, kind: str = "info") -> None:
         self.told.append((kind, text))

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 PROJECT_SUFFIX = ".floorcast"
+NOT_RECORDED = ("file.save_recording", "file.quit", "plan.cancel")
 
 
 def open_any(
@@ -118,6 +119,23 @@ def copy_picture(workbench: Workbench, pane: str = "floor_plan") -> None:
     workbench.ui.show("copy_picture", pane=pane)
 
 
+def save_recording(workbench: Workbench, path: str | Path | None = None) -> None:
+    """Write what was done since the program began as a script."""
+    import json
+
+    from floorplan_core.files import write_text
+
+    target = (
+        Path(path)
+        if path is not None
+        else workbench.ui.ask_save("Save the session as a script", "*.json", "session.json")
+    )
+    if target is not None:
+        done = [entry for entry in workbench.log if entry["action"] not in NOT_RECORDED]
+        write_text(target, json.dumps(done, indent=1) + "\n")
+        workbench.ui.tell(f"Wrote {target.name}; run it with: floorcast gui --script {target.name}")
+
+
 def open_in_open3d(workbench: Workbench) -> None:
     """The same scene in Open3D's own viewer, in a process of its own."""
     from floorcast_app.open3d_viewer import open_in_open3d as start
@@ -217,6 +235,13 @@ ACTIONS: tuple[Action, ...] = (
         "Ctrl+Shift+C",
         "copy",
         with_plan,
+    ),
+    Action(
+        "file.save_recording",
+        "Save the session as a script…",
+        save_recording,
+        "Write what was done as a list of actions that 'floorcast gui --script' runs again.",
+        enabled=lambda w: bool(w.log),
     ),
     Action(
         "file.open3d",
