@@ -22,6 +22,7 @@ Mask = NDArray[np.bool_]
 
 _HEIGHTS = (0.5, 1.9)  # m, between which the best slice is looked for
 _TYPICAL = 2.0  # times the indoor share: what the surely inside must show for ceiling (floor) to decide
+_BEHIND_DOOR = 0.3  # of the indoor share, for what a door joins to the inside: little floor is seen through it
 _BEYOND = 0.6  # m behind a door, where the space that it opens is looked for
 _BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
 
@@ -89,8 +90,8 @@ def _indoors(
         > _TYPICAL * config.indoor_share * float(np.sum((area * sure)[1:]))
     ]
     inside = visited | (large & (shown[0] >= config.indoor_share)) if shown else visited | large
-    over_floor = large & ((floor >= config.indoor_share) | (ceiling >= config.indoor_share))
-    inside = _through_doors(inside, over_floor, doors, label, evidence)
+    within = large & (np.maximum(floor, ceiling) >= _BEHIND_DOOR * config.indoor_share)
+    inside = _through_doors(inside, within, doors, label, evidence)
     inside[0] = False
     return np.asarray(inside[label])
 
