@@ -23,6 +23,7 @@ from floorplan_core.model import (
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Exporter, Reader, ReadOptions, RegionClassifier, hookimpl
 from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.colours import as_rgb
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.foreign import damaged, import_library, moved, spread_sample
 from floorplan_core.readers.join_time import nearest_rows, time_tolerance
@@ -78,6 +79,7 @@ __all__ = [
     "Trajectory",
     "UsageError",
     "WrongTrajectory",
+    "as_rgb",
     "as_scan_id",
     "assemble",
     "damaged",

@@ -12,13 +12,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.api import CHUNK_POINTS, InputError, damaged, import_library, rotation_from_quaternion
+from floorplan_core.api import (
+    CHUNK_POINTS,
+    InputError,
+    RawChunk,
+    as_rgb,
+    damaged,
+    import_library,
+    rotation_from_quaternion,
+)
 
 HEADER = struct.Struct("<8sIIQQQQ")
 PAGE, CHECKSUM = 1024, 4  # bytes of a page, and of the checksum at its end
 MAX_XML = 256 << 20  # bytes: some 100,000 scans
 CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
 SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
+RGB = ("colorRed", "colorGreen", "colorBlue")
+SEEN = (*RGB, "intensity")
 INVALID = ("cartesianInvalidState", "sphericalInvalidState")
 STRUCTURE = ("rowIndex", "columnIndex")
 MIN_QUATERNION = 1e-6
@@ -92,13 +102,13 @@ def list_scans(path: Path) -> list[E57Scan]:
 
 def read_scan(
     path: Path, image: Any, scan: E57Scan, size: int = CHUNK_POINTS
-) -> Generator[tuple[Any, Any], None, None]:
-    """(N, 3) float64 valid points in the scan's frame and their (N,) time stamps or None, in buffers.
+) -> Generator[RawChunk, None, None]:
+    """Valid points in the scan's frame (float64) with what they carry, in buffers.
 
     Raises :class:`InputError` where fewer records follow than the file promises.
     """
     names = [*(SPHERICAL if scan.spherical else CARTESIAN)]
-    names += [name for name in (*INVALID, "timeStamp") if name in scan.fields]
+    names += [name for name in (*INVALID, "timeStamp", *SEEN) if name in scan.fields]
     with damaged(path.name, "E57 file"):
         columns, reader = _reader(image, scan, names, min(size, scan.count))
     try:
@@ -127,7 +137,7 @@ def _reader(image: Any, scan: E57Scan, names: list[str], size: int) -> tuple[dic
     return columns, points.reader(buffers)
 
 
-def _valid_points(columns: dict[str, Any], spherical: bool) -> tuple[Any, Any]:
+def _valid_points(columns: dict[str, Any], spherical: bool) -> RawChunk:
     valid = np.ones(len(next(iter(columns.values()))), dtype=bool)
     for name in INVALID:
         if name in columns:
@@ -138,7 +148,9 @@ def _valid_points(columns: dict[str, Any], spherical: bool) -> tuple[Any, Any]:
             level = a * np.cos(c)
             a, b, c = level * np.cos(b), level * np.sin(b), a * np.sin(c)
     stamps = columns["timeStamp"][valid] if "timeStamp" in columns else None
-    return np.column_stack([a, b, c]), stamps
+    rgb = as_rgb(np.column_stack([columns[n][valid] for n in RGB])) if set(RGB) <= set(columns) else None
+    echo = columns["intensity"][valid].astype(np.float32) if "intensity" in columns else None
+    return RawChunk(np.column_stack([a, b, c]), stamps=stamps, rgb=rgb, intensity=echo)
 
 
 def _describe(path: Path, node: Any, index: int) -> E57Scan:

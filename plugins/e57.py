@@ -116,13 +116,13 @@ def _without_sensors(source: PointSource) -> PointSource:
 def _chunks(path: Path, scans: list[E57Scan], sensors: bool) -> Iterator[RawChunk]:
     with opened_image(path) as image:
         for row, scan in enumerate(scans):
-            for points, stamps in read_scan(path, image, scan):
-                yield _chunk(points, stamps, scan, row if sensors else None)
+            for read in read_scan(path, image, scan):
+                yield _chunk(read, scan, row if sensors else None)
 
 
-def _chunk(points: np.ndarray, stamps: np.ndarray | None, scan: E57Scan, row: int | None) -> RawChunk:
-    ids = None if row is None else np.full(len(points), row, dtype=np.int32)
-    return RawChunk(points, ids, stamps, scan.pose if scan.posed else None)
+def _chunk(read: RawChunk, scan: E57Scan, row: int | None) -> RawChunk:
+    ids = None if row is None else np.full(len(read.points), row, dtype=np.int32)
+    return replace(read, scan_id=ids, T_file_sensor=scan.pose if scan.posed else None)
 
 
 def _sample(path: Path, scans: list[E57Scan]) -> RawChunk:
@@ -132,8 +132,8 @@ def _sample(path: Path, scans: list[E57Scan]) -> RawChunk:
     with opened_image(path) as image:
         for row in rows:
             with closing(read_scan(path, image, scans[row], SAMPLE_READ // len(rows))) as buffers:
-                points, stamps = next(buffers)
-            parts.append(_chunk(points, stamps, scans[row], row))
+                read = next(buffers)
+            parts.append(_chunk(read, scans[row], row))
     if not any(len(part.points) for part in parts):
         raise EmptyInput(f"All points of {path.name} that were looked at are marked as invalid.")
     return spread_sample(parts)

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from floorcast_plugins._las_header import LasHead, name_of_crs, read_las_head, reference_system
 
+from floorcast_plugins._las_header import LasHead, name_of_crs, read_las_head, reference_system
 from floorplan_core.api import (
     CHUNK_POINTS,
     SAMPLE_POINTS,
@@ -21,6 +21,7 @@ from floorplan_core.api import (
     Reader,
     ReadOptions,
     Reconstruction,
+    as_rgb,
     as_scan_id,
     assemble,
     damaged,
@@ -30,6 +31,7 @@ from floorplan_core.api import (
     join_chunks,
 )
 
+RGB = ("red", "green", "blue")
 NOISE = (7, 18)  # ASPRS classes: low point, high noise
 CHUNK_BYTES = 64 << 20  # of records: wide ones come in smaller chunks
 SAMPLE_BLOCKS = 128  # of LAS
@@ -144,7 +146,9 @@ def _points(records: Any, names: tuple[str, ...]) -> tuple[RawChunk, int]:
     scan = find_name(names, SCAN_ID_NAMES)
     ids = None if scan is None else as_scan_id(np.asarray(records[scan])[~bad])
     stamps = raw["gps_time"].astype(np.float64) if "gps_time" in names else None
-    return RawChunk(points, ids, stamps), int(np.count_nonzero(bad))
+    rgb = as_rgb(np.column_stack([raw[name] for name in RGB])) if set(RGB) <= set(names) else None
+    echo = raw["intensity"].astype(np.float32) if "intensity" in names else None
+    return RawChunk(points, ids, stamps, rgb=rgb, intensity=echo), int(np.count_nonzero(bad))
 
 
 def _sample(path: Path, head: LasHead, names: tuple[str, ...]) -> RawChunk:

@@ -110,7 +110,14 @@ class _Join:
         keep = ids >= 0
         if keep.all():
             return replace(raw, scan_id=ids), 0
-        chunk = replace(raw, points=raw.points[keep], scan_id=ids[keep], stamps=stamps[keep])
+        chunk = replace(
+            raw,
+            points=raw.points[keep],
+            scan_id=ids[keep],
+            stamps=stamps[keep],
+            rgb=None if raw.rgb is None else raw.rgb[keep],
+            intensity=None if raw.intensity is None else raw.intensity[keep],
+        )
         return chunk, int(len(keep) - np.count_nonzero(keep))
 
 

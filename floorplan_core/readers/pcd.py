@@ -16,6 +16,7 @@ from floorplan_core.model import Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.colours import ColourColumns, find_colours, intensity_of, rgb_of
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.pcd_header import MAX_HEADER_BYTES, PcdHeader, parse_pcd_header
 from floorplan_core.readers.records import (
@@ -71,6 +72,7 @@ class _Columns:
     xyz: tuple[str, str, str]
     scan_id: str | None
     stamp: str | None
+    colours: ColourColumns
 
 
 def pcd_source(path: Path) -> PointSource:
@@ -91,14 +93,21 @@ def _columns(path: Path, header: PcdHeader) -> _Columns:
         raise InputError(
             f"{path.name} has no coordinates: its fields are {', '.join(header.names)}, not x, y, z."
         )
-    return _Columns(xyz, find_name(single, SCAN_ID_NAMES), find_name(single, STAMP_NAMES))
+    scan_id, stamp = find_name(single, SCAN_ID_NAMES), find_name(single, STAMP_NAMES)
+    return _Columns(xyz, scan_id, stamp, find_colours(single, packed=True))
 
 
 def _binary_source(path: Path, header: PcdHeader, columns: _Columns) -> PointSource:
     present = (path.stat().st_size - header.size) // header.dtype.itemsize
     _check_count(path, header, present)
     layout = RecordLayout(
-        header.dtype, header.size, header.points, columns.xyz, columns.scan_id, columns.stamp
+        header.dtype,
+        header.size,
+        header.points,
+        columns.xyz,
+        columns.scan_id,
+        columns.stamp,
+        columns.colours,
     )
     return PointSource(
         path,
@@ -172,7 +181,9 @@ def _slice(arrays: dict[str, NDArray[Any]], columns: _Columns, part: slice) -> R
     points = np.column_stack([k[part].astype(dtype) for k in kinds])
     ids = None if columns.scan_id is None else as_scan_id(arrays[columns.scan_id][part])
     stamps = None if columns.stamp is None else arrays[columns.stamp][part].astype(np.float64)
-    return RawChunk(points, ids, stamps)
+    seen = {name: arrays[name][part] for name in columns.colours.names}
+    rgb, intensity = rgb_of(seen, columns.colours), intensity_of(seen, columns.colours)
+    return RawChunk(points, ids, stamps, rgb=rgb, intensity=intensity)
 
 
 def _unpack(path: Path, header: PcdHeader) -> dict[str, NDArray[Any]]:

@@ -10,6 +10,7 @@ from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
+from floorplan_core.readers.colours import find_colours
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.ply_header import MAX_HEADER_BYTES, PlyElement, PlyHeader, parse_ply_header
 from floorplan_core.readers.ply_lists import constant_record, skip_list_element
@@ -80,6 +81,7 @@ def _binary_source(path: Path, header: PlyHeader, vertex: PlyElement) -> PointSo
         _coordinates(path, names),
         find_name(names, SCAN_ID_NAMES),
         find_name(names, STAMP_NAMES),
+        find_colours(names),
     )
     return PointSource(
         path,

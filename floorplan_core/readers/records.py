@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.errors import InputError
+from floorplan_core.readers.colours import NO_COLOURS, ColourColumns, intensity_of, rgb_of
 from floorplan_core.readers.source import CHUNK_POINTS, SAMPLE_BLOCKS, SAMPLE_POINTS, RawChunk, ScanIds
 
 BUFFER_BYTES = 1 << 20  # fits the second-level cache
@@ -31,6 +32,7 @@ class RecordLayout:
     xyz: tuple[str, str, str]
     scan_id: str | None = None
     stamp: str | None = None
+    colours: ColourColumns = NO_COLOURS
 
     @property
     def point_dtype(self) -> type[np.float32] | type[np.float64]:
@@ -94,10 +96,14 @@ def join_chunks(parts: list[RawChunk]) -> RawChunk:
     """One chunk from several of the same file."""
     ids = [p.scan_id for p in parts if p.scan_id is not None]
     stamps = [p.stamps for p in parts if p.stamps is not None]
+    rgb = [p.rgb for p in parts if p.rgb is not None]
+    intensity = [p.intensity for p in parts if p.intensity is not None]
     return RawChunk(
         np.concatenate([p.points for p in parts]),
         np.concatenate(ids) if ids else None,
         np.concatenate(stamps) if stamps else None,
+        rgb=np.concatenate(rgb) if len(rgb) == len(parts) else None,
+        intensity=np.concatenate(intensity) if len(intensity) == len(parts) else None,
     )
 
 
@@ -105,6 +111,7 @@ def _read_columns(handle: FileIO, path: Path, layout: RecordLayout, count: int) 
     points = np.empty((count, 3), dtype=layout.point_dtype)
     ids = None if layout.scan_id is None else np.empty(count, dtype=np.int32)
     stamps = None if layout.stamp is None else np.empty(count, dtype=np.float64)
+    seen = {name: np.empty(count, dtype=layout.dtype[name]) for name in layout.colours.names}
     start = 0
     for rows in _buffers(handle, path, layout, count):
         end = start + len(rows)
@@ -114,8 +121,11 @@ def _read_columns(handle: FileIO, path: Path, layout: RecordLayout, count: int) 
             ids[start:end] = as_scan_id(rows[layout.scan_id])
         if stamps is not None and layout.stamp is not None:
             stamps[start:end] = rows[layout.stamp]
+        for name, column in seen.items():
+            column[start:end] = rows[name]
         start = end
-    return RawChunk(points, ids, stamps)
+    rgb, intensity = rgb_of(seen, layout.colours), intensity_of(seen, layout.colours)
+    return RawChunk(points, ids, stamps, rgb=rgb, intensity=intensity)
 
 
 def _buffers(handle: FileIO, path: Path, layout: RecordLayout, count: int) -> Iterator[NDArray[Any]]:

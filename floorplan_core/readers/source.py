@@ -40,6 +40,8 @@ class RawChunk:
     dropped: int = 0  # records that hold no point (words where numbers should be)
     free: NDArray[Any] | None = None  # (M, 3) centres of voxels that the file says are free, file coordinates
     free_size: float = 0.0  # side of those voxels, file unit
+    rgb: NDArray[np.uint8] | None = None  # (N, 3)
+    intensity: NDArray[np.float32] | None = None  # (N,) in the file's own scale
 
 
 @dataclass(frozen=True)
