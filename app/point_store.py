@@ -22,7 +22,7 @@ class Points:
 
     xyz: NDArray[np.float32]  # (N, 3) metres, local frame
     rgb: NDArray[np.uint8] | None = None  # (N, 3)
-    intensity: NDArray[np.float32] | None = None  # (N,) 0 to 1
+    intensity: NDArray[np.float32] | None = None  # (N,) in the file's own scale
 
 
 class PointStore:

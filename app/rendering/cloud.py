@@ -31,7 +31,7 @@ class Cloud:
 
     xyz: Floats  # (N, 3) metres, scene frame
     rgb: NDArray[np.uint8] | None = None  # (N, 3)
-    intensity: Floats | None = None  # (N,) 0 to 1
+    intensity: Floats | None = None  # (N,) in the file's own scale
     density: float = 1.0  # points for each m2 of surface
     low: float = 0.0  # metres: between these lie nearly all points
     high: float = 2.6
@@ -101,11 +101,22 @@ def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str) -> Paint:
     if by == "rgb" and cloud.rgb is not None:
         return Paint(_in_blocks(cloud, lambda rows: ramps.pack(cloud.rgb[rows])))
     if by == "intensity" and cloud.intensity is not None:
+        low, high = _usual(cloud.intensity)
         ramp = ramps.grey_ramp(theme)
-        return Paint(_in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.intensity[rows], 0.0, 1.0)]))
+        if high > low:
+            return Paint(_in_blocks(cloud, lambda rows: ramp[ramps.steps(cloud.intensity[rows], low, high)]))
     if by in ("facing", "plane") and plan is not None:
         return Paint(_by_plane(cloud, by, plan, theme))
     return _by_height(cloud, plan, theme, by if by != "height" else "")
+
+
+def _usual(intensity: Floats) -> tuple[float, float]:
+    """Between which echoes nearly all lie: every scanner has its own scale, and a few mirrors outshine all."""
+    known = intensity[:_SAMPLE][np.isfinite(intensity[:_SAMPLE])]
+    if not len(known):
+        return 0.0, 0.0
+    low, high = np.quantile(known, (0.02, 0.98))
+    return float(low), float(high)
 
 
 def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, note: str) -> Paint:
