@@ -105,7 +105,7 @@ class Workbench:
 
     # ---- running actions --------------------------------------------------------------------------------
 
-    def run(self, id: str, **arguments: Any) -> Any:
+    def run(self, id: str, /, **arguments: Any) -> Any:
         """Run an action by id; :class:`UsageError` where it is not possible now."""
         action = self.actions[id]
         if not action.enabled(self):
@@ -114,7 +114,7 @@ class Workbench:
         self.log.append({"action": id, **{k: _plain(v) for k, v in arguments.items()}})
         return action.run(self, **arguments)
 
-    def try_run(self, id: str, **arguments: Any) -> Any:
+    def try_run(self, id: str, /, **arguments: Any) -> Any:
         """The same from a menu or a key: what goes wrong is told, not raised."""
         try:
             return self.run(id, **arguments)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 Point = tuple[float, float]
+ToPlan = Callable[[Point], Point]
 HEADER = ("id", "note", "plan_m", "laser_m", "difference_m", "difference_percent", "loa")
 
 
@@ -45,14 +47,17 @@ class CheckMeans:
     band: str  # level of accuracy that 95 % of the differences meet
 
 
-def check_row(check: Check) -> CheckRow:
+def check_row(check: Check, to_plan: ToPlan | None = None) -> CheckRow:
     """The figures of one check.
+
+    :param to_plan: local to plan coordinates; without it lengths are those of the local frame, which are
+        shorter where the survey's up axis is tilted.
 
     >>> row = check_row(Check("c1", (0.0, 0.0), (3.0, 4.0), 4.98))
     >>> row.plan, round(row.difference, 6), round(row.percent, 3), row.band
     (5.0, 0.02, 0.402, 'LOA20')
     """
-    length = math.dist(check.start, check.end)
+    length = math.dist(*(to_plan(p) if to_plan else p for p in (check.start, check.end)))
     if check.measured is None:
         return CheckRow(check.id, check.note, length, None, None, None, "")
     difference = length - check.measured
@@ -60,9 +65,9 @@ def check_row(check: Check) -> CheckRow:
     return CheckRow(check.id, check.note, length, check.measured, difference, percent, loa_band(difference))
 
 
-def check_rows(checks: tuple[Check, ...]) -> tuple[CheckRow, ...]:
+def check_rows(checks: tuple[Check, ...], to_plan: ToPlan | None = None) -> tuple[CheckRow, ...]:
     """The table's rows."""
-    return tuple(check_row(check) for check in checks)
+    return tuple(check_row(check, to_plan) for check in checks)
 
 
 def check_means(rows: tuple[CheckRow, ...]) -> CheckMeans | None:
@@ -75,12 +80,12 @@ def check_means(rows: tuple[CheckRow, ...]) -> CheckMeans | None:
     return CheckMeans(len(errors), sum(errors) / len(errors), sum(shares) / len(shares), loa_band(nearly_all))
 
 
-def table_csv(checks: tuple[Check, ...]) -> str:
+def table_csv(checks: tuple[Check, ...], to_plan: ToPlan | None = None) -> str:
     """The ground-truth table as CSV: one row for each check, and the means."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(HEADER)
-    rows = check_rows(checks)
+    rows = check_rows(checks, to_plan)
     for r in rows:
         writer.writerow([r.id, r.note, *map(_number, (r.plan, r.measured, r.difference, r.percent)), r.band])
     means = check_means(rows)
@@ -96,7 +101,7 @@ def add(workbench: Workbench, start: Point, end: Point, measured: float | None =
     if math.dist(a, b) == 0:
         raise UsageError("The two points of a measurement are the same; give two different ones.")
     check = Check(_next_id(workbench.state.checks), a, b, _checked(measured), note)
-    workbench.change(f"Measure {math.dist(a, b):.3f} m", checks=(*workbench.state.checks, check))
+    workbench.change(f"Measure {math.dist(start, end):.3f} m", checks=(*workbench.state.checks, check))
     workbench.selection.select(Item("check", check.id))
     return check.id
 
@@ -130,7 +135,8 @@ def export(workbench: Workbench, path: Path | str | None = None) -> None:
     if path is None:
         return
     target = Path(path)
-    write_text(target, table_csv(workbench.state.checks))
+    to_plan = workbench.to_plan if workbench.plan is not None else None
+    write_text(target, table_csv(workbench.state.checks, to_plan))
     workbench.ui.tell(f"Wrote {target.name}.")
 
 

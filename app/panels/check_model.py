@@ -42,7 +42,8 @@ class CheckModel(QAbstractTableModel):
     def reload(self) -> None:
         """Another document, plan or unit."""
         self.beginResetModel()
-        self._rows = check_rows(self._workbench.state.checks)
+        to_plan = self._workbench.to_plan if self._workbench.plan is not None else None
+        self._rows = check_rows(self._workbench.state.checks, to_plan)
         self.endResetModel()
 
     def item(self, row: int) -> Item:
