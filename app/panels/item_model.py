@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor
 
 from floorcast_app import icons, theme
 from floorcast_app.panels.by_hand import by_hand, hand_note, is_locked, machine_note
-from floorcast_app.panels.item_columns import COLUMNS, things
+from floorcast_app.panels.item_columns import COLUMNS, Column, things
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
@@ -19,6 +19,7 @@ EYE, LOCK = 0, 1  # columns before those of item_columns
 OWN = 2
 SORT_ROLE = int(Qt.ItemDataRole.UserRole)
 ITEM_ROLE = SORT_ROLE + 1
+MOST_MEASURED = 300  # rows whose texts decide how wide a column is
 LOCKABLE = ("plane", "door")
 
 
@@ -30,7 +31,6 @@ class ItemModel(QAbstractTableModel):
         self.kind, self.columns = kind, COLUMNS[kind]
         self._workbench = workbench
         self._things: tuple[Any, ...] = ()
-        self.reload()
 
     def reload(self) -> None:
         """Another plan, other units or another theme."""
@@ -42,6 +42,11 @@ class ItemModel(QAbstractTableModel):
         """Eyes and locks changed."""
         if self._things:
             self.dataChanged.emit(self.index(0, EYE), self.index(len(self._things) - 1, LOCK))
+
+    def texts(self, column: Column) -> set[str]:
+        """What stands in the first rows of a column, each text once."""
+        units = self._workbench.view.look.units
+        return {column.text(thing, units, _words) for thing in self._things[:MOST_MEASURED]}
 
     def item(self, row: int) -> Item:
         """What stands in ``row``."""

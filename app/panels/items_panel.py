@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QLineEdit, QTableV
 from floorcast_app import icons, theme
 from floorcast_app.panels.base import GRID, Panel, column, listener_of, row
 from floorcast_app.panels.by_hand import is_locked
+from floorcast_app.panels.item_columns import things
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, LOCKABLE, OWN, ItemFilter, ItemModel
 from floorcast_app.selection import Item
@@ -18,6 +19,8 @@ from floorcast_app.workbench import Workbench
 
 TABS = {"region": "Regions", "door": "Doors", "plane": "Planes"}
 ROW_HEIGHT = 28  # px
+ARROW_WIDTH = 16  # px of the arrow of the sorted column
+PIN_WIDTH = 22  # px of the pin of a corrected thing
 MARK_WIDTH = 30  # px of the columns with an eye and a lock
 LOCK_ACTIONS = {"plane": "correct.keep_plane", "door": "correct.accept_door"}
 
@@ -38,7 +41,26 @@ class ItemTable(QTableView):
         self.doubleClicked.connect(lambda i: workbench.selection.zoom_asked.emit(i.data(ITEM_ROLE)))
         self.customContextMenuRequested.connect(self._menu)
         self._following = False
+        self.stale = True  # the plan is another one than the rows'
         self.selectionModel().selectionChanged.connect(self._picked)
+
+    def freshen(self) -> None:
+        """Take over the present plan, where that was not done yet."""
+        if self.stale:
+            self.stale = False
+            self.rows.reload()
+            self._fit_columns()
+            self.follow()
+
+    def _fit_columns(self) -> None:
+        """As wide as what stands in them; Qt's own way asks every cell ten times."""
+        metrics, heading = self.fontMetrics(), self.horizontalHeader().fontMetrics()
+        for at, column_ in enumerate(self.rows.columns):
+            texts = self.rows.texts(column_)
+            widest = max((metrics.horizontalAdvance(t) for t in texts), default=0)
+            title = heading.horizontalAdvance(tr(column_.title)) + ARROW_WIDTH
+            pin = PIN_WIDTH if at == 0 else 0
+            self.setColumnWidth(OWN + at, max(widest + pin, title) + 2 * GRID)
 
     def follow(self) -> None:
         """Show the workbench's selection."""
@@ -148,6 +170,7 @@ class ItemsPanel(Panel):
         corner.setLayout(line)
         self.tabs.setCornerWidget(corner)
         self.tabs.setDocumentMode(True)
+        self.tabs.currentChanged.connect(self._freshen)
         column(self, 0, 0).addWidget(self.tabs)
         self.listen(workbench.plan_changed)
         self.listen(workbench.selection.changed, then=self._follow)
@@ -157,13 +180,16 @@ class ItemsPanel(Panel):
 
     def refresh(self) -> None:
         for at, (kind, table) in enumerate(self.tables.items()):
-            table.rows.reload()
-            table.resizeColumnsToContents()
-            for mark in (EYE, LOCK):
-                table.horizontalHeader().resizeSection(mark, MARK_WIDTH)
-            count = table.rows.rowCount()
+            count = len(things(self.workbench.plan, kind))
             self.tabs.setTabText(at, f"{tr(TABS[kind])} {count}" if count else tr(TABS[kind]))
-            table.follow()
+            table.stale = True
+        self._freshen()
+
+    def _freshen(self, *_: object) -> None:
+        """Only the list that is seen is filled: a hospital has hundreds of planes."""
+        table = self.tabs.currentWidget()
+        assert isinstance(table, ItemTable)
+        table.freshen()
 
     def _follow(self) -> None:
         item = self.workbench.selection.item

@@ -17,7 +17,8 @@ from tests.app.pump import settle
 @pytest.fixture(autouse=True)
 def look(qapp: QApplication) -> Iterator[None]:
     """The light theme."""
-    theme.apply_theme(qapp, "light")
+    if theme.name() != "light" or not qapp.styleSheet():
+        theme.apply_theme(qapp, "light")
     yield
     if theme.name() != "light":
         theme.apply_theme(qapp, "light")

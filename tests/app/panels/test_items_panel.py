@@ -22,6 +22,8 @@ def panel(planned: Workbench, qtbot: QtBot) -> ItemsPanel:
     qtbot.addWidget(made)
     made.resize(900, 400)
     made.show()
+    for kind in ("door", "plane", "region"):  # lists are filled when they are seen
+        made.tabs.setCurrentWidget(made.tables[kind])
     return made
 
 
