@@ -111,7 +111,7 @@ def paint(cloud: Cloud, by: str, plan: FloorPlan | None, theme: str) -> Paint:
 
 
 def _usual(intensity: Floats) -> tuple[float, float]:
-    """Between which echoes nearly all lie: every scanner has its own scale, and a few mirrors outshine all."""
+    """Between which echoes nearly all lie: every scanner has its own scale, and mirrors outshine all."""
     known = intensity[:_SAMPLE][np.isfinite(intensity[:_SAMPLE])]
     if not len(known):
         return 0.0, 0.0
