@@ -71,7 +71,7 @@ class Workbench:
     """One document and everything that is derived from it."""
 
     def __init__(self, post: Post) -> None:
-        self._post = post
+        self._post = self.post = post  # runs a function in the main thread, soon
         self._whole: FloorPlan | None = None  # the plan of the whole survey, while a moment of a run is shown
         self.document = Document()
         self.selection = Selection()
