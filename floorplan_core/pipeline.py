@@ -45,7 +45,6 @@ from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
-from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.occupancy import slice_map
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import build_regions, connect_doors
@@ -195,7 +194,7 @@ class FloorPlanner:
         self.observer.check_cancelled()
         return FloorPlan(
             frame=frame,
-            local_frame=self.local_frame,
+            local_frame=replace(self.local_frame, shift=self.local_frame.shift + self.map.own.centre),
             segments=segments,
             planes=planes,
             doors=doors,
@@ -226,11 +225,14 @@ class FloorPlanner:
         """The doors in the corrected planes, with what a person said of them."""
         sure = self.config.doors
 
-        def faint() -> tuple[Door, ...]:
-            all_ = sure.model_copy(update={"min_confidence": 0.0})
-            return follow_planes(find_doors(still_walls(machine, planes), evidence, all_), machine, planes)
+        def followed(found: tuple[Door, ...]) -> tuple[Door, ...]:
+            return follow_planes(found, machine, planes, sure.max_thickness)
 
-        return correct_doors(follow_planes(doors, machine, planes), planes, corrections, sure, faint)
+        def faint() -> tuple[Door, ...]:
+            unsure = sure.model_copy(update={"min_confidence": 0.0})
+            return followed(find_doors(still_walls(machine, planes), evidence, unsure))
+
+        return correct_doors(followed(doors), planes, corrections, sure, faint)
 
     def _frame_and_storeys(self) -> tuple[ManhattanFrame, tuple[Storey, ...]]:
         """The frame of the whole survey, and its storeys in it; found once for the points so far."""
@@ -239,11 +241,16 @@ class FloorPlanner:
         if self._found is None or self._found[0] != made_of:
             self._require_room()
             sample = self.map.sample()
-            frame = estimate_frame(sample, self.config.frame)
-            if is_tall(sample, frame, self.config.storeys):
+            frame = self.map.frame(self.config.frame)
+            own = self._own(frame)
+            if is_tall(sample, own, self.config.storeys):
                 sample = self.map.surfels.surfels()
-            self._found = made_of, frame, find_storeys(sample, frame, self.config.storeys)
+            self._found = made_of, frame, find_storeys(sample, own, self.config.storeys)
         return self._found[1:]
+
+    def _own(self, frame: ManhattanFrame) -> ManhattanFrame:
+        """``frame`` for what lies in the frame of the map."""
+        return replace(frame, rotation=frame.rotation @ self.map.own.rotation.T)
 
     def _is_one_of_many(self) -> bool:
         return self._found is not None and len(self._found[2]) > 1
@@ -254,17 +261,20 @@ class FloorPlanner:
         if not 0 <= storey < len(storeys):
             known = f"its storeys are 0 to {len(storeys) - 1}" if len(storeys) > 1 else "it has one storey, 0"
             raise UsageError(f"There is no storey {storey} in {self.source or 'the survey'}: {known}.")
-        return replace(frame, floor_z=storeys[storey].floor_z, ceiling_z=storeys[storey].ceiling_z)
+        level = storeys[storey]
+        return replace(frame, floor_z=level.floor_z, ceiling_z=level.ceiling_z)
 
     def _evidence_of(self, storey: int, frame: ManhattanFrame) -> Evidence:
         """The voxel map of one storey."""
         surfels, path = self.map.surfels, self.map.path()
+        own = self._own(frame)
         if not self._is_one_of_many():
-            return gather_evidence(surfels, self.map.rays, frame, path, self.config.voxels)
+            found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
+            return replace(found, frame=frame)
         chosen = self.storeys()[storey]
-        surfels, path = restrict_surfels(surfels, frame, chosen), restrict_path(path, frame, chosen)
-        evidence = gather_evidence(surfels, self.map.rays, frame, path, self.config.voxels)
-        return restrict_evidence(evidence, chosen)
+        surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
+        found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
+        return replace(restrict_evidence(found, chosen), frame=frame)
 
     def _require_room(self) -> None:
         """Raise :class:`NoPlanError` where there is too little to begin with."""

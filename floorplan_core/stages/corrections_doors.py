@@ -36,23 +36,33 @@ Doors = tuple[Door, ...]
 Planes = tuple[LayoutPlane, ...]
 
 
-def follow_planes(doors: Doors, machine: Sequence[LayoutPlane], planes: Sequence[LayoutPlane]) -> Doors:
-    """The doors, moved with the planes that they are cut into."""
+def follow_planes(
+    doors: Doors, machine: Sequence[LayoutPlane], planes: Sequence[LayoutPlane], thickest: float
+) -> Doors:
+    """The doors, moved with the planes that they are cut into.
+
+    :param thickest: metres; a face that is moved farther from the other one is of another wall.
+    """
     before = {p.id: p.offset for p in machine}
     moved = {p.id: p.offset - before[p.id] for p in planes if p.id in before and p.offset != before[p.id]}
     sign = {p.id: p.facing.sign for p in planes}
-    return tuple(_moved(d, moved, sign) for d in doors) if moved else doors
+    return tuple(_moved(d, moved, sign, thickest) for d in doors) if moved else doors
 
 
-def _moved(door: Door, moved: dict[str, float], sign: dict[str, int]) -> Door:
+def _moved(door: Door, moved: dict[str, float], sign: dict[str, int], thickest: float) -> Door:
     """Faces of one side of the wall are taken together, so that the thickness changes with each side."""
     if not any(name in moved for name in door.planes):
         return door
     sides = [[moved.get(n, 0.0) for n in door.planes if sign.get(n) == s] for s in (1, -1)]
     shifts = [float(np.mean(side)) for side in sides if side]
-    thicker = shifts[0] - shifts[1] if len(shifts) == 2 else 0.0
-    middle = door.offset + float(np.mean(shifts))
-    return replace(door, offset=middle, thickness=max(0.0, door.thickness + thicker))
+    thickness = door.thickness + (shifts[0] - shifts[1] if len(shifts) == 2 else 0.0)
+    if 0 <= thickness <= thickest:
+        return replace(door, offset=door.offset + float(np.mean(shifts)), thickness=thickness)
+    stayed = tuple(n for n in door.planes if n not in moved)
+    if not stayed:
+        return replace(door, offset=door.offset + shifts[0], planes=door.planes[:1], thickness=0.0)
+    out = 0.5 * door.thickness * sign[stayed[0]]  # from the middle of the wall to the face that stayed
+    return replace(door, offset=door.offset + out, planes=stayed, thickness=0.0)
 
 
 def correct_doors(
