@@ -18,6 +18,7 @@ CONFIG = Config()
 SIZES = ((18, 12), (30, 17), (40, 26), (60, 36), (90, 55), (120, 84), (150, 134))  # m: 216 to 20,100 m2
 OFFICE, OFFICE_PLANES, TARGET = (80.0, 40.0), 100, 0.3
 BUILDINGS = 100
+REPEAT = 12  # runs of a few milliseconds each, of which the best counts
 
 
 def candidates_of(layout: Layout) -> CandidateSet:
@@ -38,8 +39,8 @@ def growth() -> Outcome:
         made = candidates_of(layout)
         chosen = cover_of(layout, made)
         times = [
-            cpu_seconds(lambda layout=layout: candidates_of(layout)),
-            cpu_seconds(lambda layout=layout, made=made: cover_of(layout, made)),
+            cpu_seconds(lambda layout=layout: candidates_of(layout), REPEAT),
+            cpu_seconds(lambda layout=layout, made=made: cover_of(layout, made), REPEAT),
         ]
         planes = "/".join(str(len(p)) for p in layout.planes)
         figures.append((layout.area, len(made), *times, sum(times)))

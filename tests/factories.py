@@ -251,8 +251,7 @@ def _door(i: int, spec: DoorSpec, planes: Sequence[LayoutPlane]) -> Door:
 
 def _no_candidates() -> CandidateSet:
     none = np.zeros(0)
-    counts = np.zeros(0, dtype=np.int64)
-    return CandidateSet(none, none, none, none, np.zeros((0, 4), dtype=np.int32), counts, counts)
+    return CandidateSet(none, none, none, none, np.zeros((0, 6), dtype=np.int32))
 
 
 def _cover(regions: Sequence[Region], grid: OccupancyGrid) -> RectangleCover:

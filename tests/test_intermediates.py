@@ -117,7 +117,7 @@ objects = st.one_of(
     st.builds(Door, words, names, st.integers(0, 1), floats, floats, floats, height=some),
     st.builds(Region, *region_parts),
     st.builds(OccupancyGrid, hnp.arrays(np.float64, 2), floats, *cells, floats),
-    st.builds(CandidateSet, row, row, row, row, hnp.arrays(np.int32, (2, 4)), *i64, st.integers()),
+    st.builds(CandidateSet, row, row, row, row, hnp.arrays(np.int32, (2, 6)), st.integers()),
 )
 leaves = st.one_of(st.none(), st.booleans(), st.integers(), floats, words, arrays, facings, boxes, objects)
 values = st.recursive(

@@ -1,4 +1,4 @@
-"""Summed-area tables: the number of marked cells in any rectangle of a grid in four look-ups.
+"""Marked cells between lines, counted once for all rectangles that the lines bound.
 
 A cell belongs to the half-open interval [a, b) that holds its centre. Intervals that share an end therefore
 share no cell, and a cell whose centre lies exactly on a line belongs to the upper (right) side of it.
@@ -7,31 +7,38 @@ share no cell, and a cell whose centre lies exactly on a line belongs to the upp
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
 
-def summed_area(mask: NDArray[np.bool_]) -> Int:
-    """(ny + 1, nx + 1) table of an (ny, nx) mask: ``table[r, c]`` cells are marked in rows < r, columns < c.
+def block_counts(mask: NDArray[np.bool_], rows: Int, columns: Int) -> Int:
+    """(len(rows) - 1, len(columns) - 1) marked cells between neighbouring lines, in one pass over the mask.
 
-    >>> summed_area(np.array([[True, False], [True, True]])).tolist()
-    [[0, 0, 0], [0, 1, 1], [0, 2, 3]]
+    :param rows: sorted indices of rows at which a block begins or ends; columns: likewise.
+
+    >>> block_counts(np.array([[True, False], [True, True]]), np.array([0, 1, 2]), np.array([0, 2])).tolist()
+    [[1], [2]]
     """
-    table = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), dtype=np.int64)
-    np.cumsum(mask, axis=0, dtype=np.int64, out=table[1:, 1:])
-    np.cumsum(table[1:, 1:], axis=1, out=table[1:, 1:])
-    return table
+    cells = np.ascontiguousarray(mask, dtype=np.bool_).view(np.uint8)
+    return np.asarray(_block_counts(cells, rows.astype(np.int64), columns.astype(np.int64)))
 
 
-def count(table: Int, rows: tuple[int, int], columns: tuple[int, int]) -> int:
-    """Marked cells in rows [r0, r1) and columns [c0, c1); nothing is marked beyond the grid."""
-    r0, r1 = np.clip(rows, 0, table.shape[0] - 1)
-    c0, c1 = np.clip(columns, 0, table.shape[1] - 1)
-    if r1 <= r0 or c1 <= c0:
-        return 0
-    return int(table[r1, c1] - table[r0, c1] - table[r1, c0] + table[r0, c0])
+@njit(cache=True, nogil=True)
+def _block_counts(cells: NDArray[np.uint8], rows: Int, columns: Int) -> Int:
+    counts = np.zeros((max(len(rows) - 1, 0), max(len(columns) - 1, 0)), np.int64)
+    band = np.empty(cells.shape[1], np.int32)
+    for i in range(counts.shape[0]):
+        band[:] = 0
+        for r in range(rows[i], rows[i + 1]):
+            for c in range(len(band)):
+                band[c] += cells[r, c]
+        for j in range(counts.shape[1]):
+            for c in range(columns[j], columns[j + 1]):
+                counts[i, j] += band[c]
+    return counts
 
 
 def first_cells(offsets: Float, origin: float, cell: float) -> Int:

@@ -12,25 +12,40 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CandidateSet:
-    """The valid rectangles of R = Px x Py; k spans x_plus[i0] .. x_minus[i1], y_plus[j0] .. y_minus[j1]."""
+    """The valid rectangles of R = Px x Py; (i0, i1, j0, j1) spans x_plus[i0] .. x_minus[i1] and
+    y_plus[j0] .. y_minus[j1].
+
+    They are kept in *families*, each of one corner (i0, j0) with a range of i1 times a range of j1: a
+    corridor that n planes cross holds n^2 rectangles in n families. Rows count the members family by family;
+    in a family i1 counts before j1.
+    """
 
     x_plus: Float  # sorted offsets of east-facing planes, metres, manhattan frame
     x_minus: Float  # sorted offsets of west-facing planes
     y_plus: Float  # sorted offsets of north-facing planes
     y_minus: Float  # sorted offsets of south-facing planes
-    index: NDArray[np.int32]  # (K, 4) i0, i1, j0, j1
-    total_cells: NDArray[
-        np.int64
-    ]  # (K,) A: free, occupied and unobserved cells (centre inside the rectangle)
-    free_cells: NDArray[np.int64]  # (K,) cells of the universe
+    families: NDArray[np.int32]  # (F, 6) i0, j0, first and end of i1, first and end of j1; disjoint
     enumerated: int = 0  # |R| = |Px| * |Py| before pruning
 
     def __len__(self) -> int:
-        return len(self.index)
+        return int(self.family_sizes().sum())
+
+    def family_sizes(self) -> NDArray[np.int64]:
+        """(F,) rectangles of each family."""
+        f = self.families.astype(np.int64)
+        return np.asarray((f[:, 3] - f[:, 2]) * (f[:, 5] - f[:, 4]))
+
+    def index(self) -> NDArray[np.int32]:
+        """(K, 4) i0, i1, j0, j1 of every rectangle: all of them are listed now."""
+        sizes = self.family_sizes()
+        own = np.repeat(self.families, sizes, axis=0)
+        member = np.arange(len(own)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        i, j = np.divmod(member, np.maximum(own[:, 5] - own[:, 4], 1))
+        return np.column_stack([own[:, 0], own[:, 2] + i, own[:, 1], own[:, 4] + j]).astype(np.int32)
 
     def bounds(self) -> Float:
-        """(K, 4) x0, y0, x1, y1 in metres, manhattan frame."""
-        i = self.index
+        """(K, 4) x0, y0, x1, y1 in metres, manhattan frame, of every rectangle."""
+        i = self.index()
         return np.column_stack(
             [self.x_plus[i[:, 0]], self.y_plus[i[:, 2]], self.x_minus[i[:, 1]], self.y_minus[i[:, 3]]]
         )

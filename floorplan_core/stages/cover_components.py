@@ -11,12 +11,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 Int = NDArray[np.int64]
-Index = NDArray[np.int32]
 _kernel = njit(cache=True, nogil=True)
 
 
 @_kernel
-def components(spans: Index, weights: Int) -> tuple[Int, Int]:
+def components(spans: Int, weights: Int) -> tuple[Int, Int]:
     """(K,) component of each rectangle, -1 where it is empty; (n,) free cells to cover in each component."""
     covered = _depth(spans, weights.shape, 0, 0)
     right, above = _depth(spans, weights.shape, 1, 0), _depth(spans, weights.shape, 0, 1)
@@ -52,7 +51,7 @@ def by_component(labels: Int, n: int) -> tuple[Int, Int]:
 
 
 @_kernel
-def _depth(spans: Index, shape: tuple[int, int], less_x: int, less_y: int) -> Int:
+def _depth(spans: Int, shape: tuple[int, int], less_x: int, less_y: int) -> Int:
     """Rectangles over each cell, by differences; 1 less in x (y): over it and its right (upper) neighbour."""
     depth = np.zeros((shape[0] + 1, shape[1] + 1), np.int64)
     for k in range(len(spans)):

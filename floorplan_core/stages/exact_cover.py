@@ -26,10 +26,9 @@ from floorplan_core.errors import NoPlanError
 from floorplan_core.model import CandidateSet, OccupancyGrid, RectangleCover
 from floorplan_core.observer import Observer
 from floorplan_core.stages.cover_components import components
-from floorplan_core.stages.set_cover import compress, make_cover
+from floorplan_core.stages.set_cover import compress, make_cover, spans_of
 
 Int = NDArray[np.int64]
-Index = NDArray[np.int32]
 
 
 def exact_cover(
@@ -41,14 +40,17 @@ def exact_cover(
         finds covers but cannot prove the best one optimal in time, the observer is warned.
     """
     observer = observer or Observer()
-    spans, weights = compress(candidates, grid)
-    spans = tighten(spans, weights)
+    cells, slots, weights = compress(candidates, grid)
+    index = candidates.index()
+    spans = tighten(spans_of(index, slots), weights)
+    x0, x1, y0, y1 = spans_of(index, cells).T
+    total = (x1 - x0) * (y1 - y0)
     deadline = time.monotonic() + config.time_limit
     chosen: list[Int] = []
     unproven = 0
-    for rows in _parts(spans, weights, candidates.total_cells):
+    for rows in _parts(spans, weights, total):
         observer.check_cancelled()
-        best, proven = _solve(spans[rows], candidates.total_cells[rows], weights, deadline, config.time_limit)
+        best, proven = _solve(spans[rows], total[rows], weights, deadline, config.time_limit)
         chosen.append(rows[best])
         unproven += not proven
     if unproven:
@@ -59,14 +61,14 @@ def exact_cover(
     return make_cover(candidates, grid, np.sort(np.concatenate([np.empty(0, np.int64), *chosen])))
 
 
-def tighten(spans: Index, weights: Int) -> Index:
+def tighten(spans: Int, weights: Int) -> Int:
     """(K, 4) the smallest span with the same free cells: equal where, and only where, these are the same."""
     table = np.pad(weights, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
     return np.asarray(_tighten(spans, table))
 
 
 @njit(cache=True, nogil=True)
-def _tighten(spans: Index, table: Int) -> Index:
+def _tighten(spans: Int, table: Int) -> Int:
     """Move each side inwards over stretches without free cells; 0, 0, 0, 0 where there are none."""
     tight = np.zeros_like(spans)
     for k in range(len(spans)):
@@ -91,7 +93,7 @@ def _free(table: Int, a: int, b: int, c: int, d: int) -> int:
     return int(table[b, d] - table[a, d] - table[b, c] + table[a, c])
 
 
-def _parts(spans: Index, weights: Int, total: Int) -> list[Int]:
+def _parts(spans: Int, weights: Int, total: Int) -> list[Int]:
     """Rows of each component, of every set of free cells the lightest rectangle only."""
     order = np.lexsort([np.arange(len(spans)), total, *spans.T])
     first = np.ones(len(order), dtype=bool)
@@ -101,7 +103,7 @@ def _parts(spans: Index, weights: Int, total: Int) -> list[Int]:
     return [rows[labels == n] for n in range(labels.max(initial=-1) + 1)]
 
 
-def _solve(spans: Index, total: Int, weights: Int, deadline: float, limit: float) -> tuple[Int, bool]:
+def _solve(spans: Int, total: Int, weights: Int, deadline: float, limit: float) -> tuple[Int, bool]:
     """Positions of the chosen rectangles of one component, and whether they are proven optimal."""
     if len(spans) == 1:
         return np.zeros(1, dtype=np.int64), True
@@ -123,7 +125,7 @@ def _solve(spans: Index, total: Int, weights: Int, deadline: float, limit: float
     return np.flatnonzero(result.x > 0.5).astype(np.int64), bool(result.status == 0)
 
 
-def _incidence(spans: Index, weights: Int) -> Any:
+def _incidence(spans: Int, weights: Int) -> Any:
     """Sparse (rows, K) matrix: which rectangle holds which group of free cells; only rows that matter."""
     from scipy.sparse import csr_array
 

@@ -127,24 +127,26 @@ def _share(part: Bool, whole: Bool) -> float:
 
 
 def join_candidates(sets: Sequence[CandidateSet]) -> CandidateSet:
-    """The candidates of all spaces over the planes of all spaces, in the order of the spaces."""
+    """The candidates of all spaces over the planes of all spaces, in the order of the spaces.
+
+    What are neighbouring planes to one space may have those of others between them: each rectangle becomes a
+    family of its own.
+    """
     names = ("x_plus", "x_minus", "y_plus", "y_minus")
     planes = [np.unique(np.concatenate([np.zeros(0), *(getattr(s, n) for s in sets)])) for n in names]
     index = [
         np.column_stack(
-            [np.searchsorted(planes[a], getattr(s, names[a]))[s.index[:, a]] for a in (0, 1, 2, 3)]
+            [np.searchsorted(planes[a], getattr(s, names[a]))[s.index()[:, a]] for a in (0, 1, 2, 3)]
         )
         for s in sets
     ]
-    none = np.zeros(0, dtype=np.int64)
+    i0, i1, j0, j1 = np.concatenate([np.zeros((0, 4), dtype=np.int64), *index]).T
     return CandidateSet(
         x_plus=planes[0],
         x_minus=planes[1],
         y_plus=planes[2],
         y_minus=planes[3],
-        index=np.concatenate([np.zeros((0, 4)), *index]).astype(np.int32),
-        total_cells=np.concatenate([none, *(s.total_cells for s in sets)]),
-        free_cells=np.concatenate([none, *(s.free_cells for s in sets)]),
+        families=np.column_stack([i0, j0, i1, i1 + 1, j1, j1 + 1]).astype(np.int32),
         enumerated=int(np.prod([len(p) for p in planes], dtype=object)),
     )
 

@@ -1,16 +1,24 @@
 """The greedy choice of the weighted set cover, made lazily (for :mod:`floorplan_core.stages.set_cover`).
 
-Rectangles are [a, b) x [c, d) of compressed cells, ``weights`` the free cells in each. The result is exactly
-that of the plain algorithm (least A / |R & D|, then larger A, then smaller index); four observations make it
-fast.
+The result is exactly that of the plain algorithm (least A / |R & D|, then larger A, then smaller index), but
+most rectangles are never looked at. They come in families: a corner (i0, j0) with a range of i1 times a range
+of j1. The smallest member I lies in every member R, and the largest O holds every one. The *waste* of R, its
+cells outside D, is A - |R & D|; like |R & D| it only grows with R. Hence for every member
 
-1. Ratios are compared as integers, A_1 d_2 < A_2 d_1.
-2. |R & D| only ever falls, so a ratio computed earlier is a lower bound: when the first rectangle of a heap
-   is counted again and has not changed, it is the greedy choice.
-3. A rectangle waits behind a neighbour that must be preferred (:func:`_hide`): most never enter the heap.
-4. Rectangles that no chain of overlaps connects do not influence each other. Each such component is covered
-   on its own; keys of successive choices only grow, so sorting all choices by key gives the order of the
-   whole.
+    A / |R & D|  =  1 + waste(R) / |R & D|  >=  1 + waste(I) / |O & D|,
+
+and where the two are equal, A <= waste(I) + |O & D|. This bound is the key under which a family waits in a
+heap, in the order of the choice; for a family of one rectangle it is the ratio itself.
+
+1. D only ever shrinks, so that waste only grows and |R & D| only falls: a key computed earlier is still a
+   bound. When the first of the heap is counted again and has not changed, no other is better.
+2. If it is a single rectangle, it is the greedy choice. If not, it is cut in two that wait in its place.
+3. Once |O & D| is 0, nothing is left of a family.
+4. Families that no chain of overlaps connects do not influence each other. Each such component is covered on
+   its own; keys of successive choices only grow, so sorting all choices by key gives the order of the whole.
+
+Ratios are compared as integers, n_1 d_2 < n_2 d_1. |R & D| is counted over compressed cells with running sums
+along both axes.
 """
 
 from __future__ import annotations
@@ -19,195 +27,205 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from floorplan_core.stages.cover_components import by_component, components
+from floorplan_core.stages.cover_components import by_component
 
 Int = NDArray[np.int64]
 Index = NDArray[np.int32]
-Keys = tuple[Int, Int, Int]  # numerator and denominator of the ratio, and what larger values of win ties
-Tree = tuple[Int, Int]  # first child and next sibling of each rectangle, -1 where there is none
-Sums = tuple[Int, Int]  # running sums of D along y for every x, and along x for every y
-BEFORE_TIES = 1 << 60  # larger than any A
+Sides = tuple[Int, Int, Int, Int]  # for the planes x+, x-, y+, y-
+Board = tuple[Int, Int, Int, Int]  # (P, 2) first cell and slot of x and y planes; sums of D along y, along x
 _kernel = njit(cache=True, nogil=True)
+_inline = njit(inline="always")  # where a call takes longer than what it does
+
+# Columns of a node of the heap, which is a part of a family. Planes are rows of the board: plus, then minus.
+I0, J0, I1, I1_END, J1, J1_END, FAMILY = range(7)
+RATIO, GAIN = 7, 8  # numerator and denominator of the bound
+ORDER = 9  # of its first member, by (i0, i1, j0, j1)
+WIDTH = 10
+SPARE = 64  # nodes for which there is room beyond twice the families
 
 
-def lazy_greedy(spans: Index, codes: Int, steps: Int, total: Int, weights: Int) -> tuple[Int, Int]:
-    """Rows chosen, in order, and the cells that each newly covered.
+def lazy_greedy(
+    families: Index, cells: Sides, slots: Sides, weights: Int, labels: Int, missing: Int
+) -> tuple[Int, Int]:
+    """(C, 5) i0, i1, j0, j1 and family of the rectangles chosen, in order; (C,) cells each newly covered.
 
-    :param spans: (K, 4) a, b, c, d.
-    :param codes: (K,) increasing; ``codes + step``: the neighbour one plane further out on a side.
-    :param steps: (4,) the step of each side.
-    :param total: (K,) weight A of each.
-    :param weights: (nx', ny') free cells.
+    :param families: (F, 6) i0, j0, first and end of i1, first and end of j1.
+    :param cells: first cell of every plane, beyond the grid too.
+    :param slots: first compressed cell of every plane.
+    :param weights: (nx', ny') free cells of each compressed cell.
+    :param labels: (F,) component of each family, -1 where it has no cells.
+    :param missing: (n,) free cells to cover in each component.
     """
-    labels, missing = components(spans, weights)
+    board, plus = _board(cells, slots, weights), (len(cells[0]), len(cells[2]))
     order, starts = by_component(labels, len(missing))
-    chosen, gained = _cover_all(spans[order], codes[order], steps, total[order], weights, starts, missing)
-    rows, cells = _by_key(order[chosen], gained, total)
-    return rows, cells
+    nodes = _nodes(families, order, plus, board)
+    heap = np.empty(len(nodes), np.int64)
+    most = min(int(missing.sum()), weights.size)  # a choice covers a compressed cell that none before it did
+    picks, state = np.empty((most, WIDTH), np.int64), np.array([len(order), 0, 0, 0, -1])
+    while not _cover_all(state, starts, missing, heap, nodes, board, picks):
+        heap, nodes = _twice(heap), _twice(nodes)
+    picks = picks[_in_order(picks[: state[2]])]
+    return picks[:, [I0, I1, J0, J1, FAMILY]] - np.array([0, plus[0], 0, plus[1], 0]), picks[:, GAIN]
+
+
+def _board(cells: Sides, slots: Sides, weights: Int) -> Board:
+    """What rectangles are measured on."""
+    x = np.column_stack([np.concatenate(cells[:2]), np.concatenate(slots[:2])])
+    y = np.column_stack([np.concatenate(cells[2:]), np.concatenate(slots[2:])])
+    along_y = np.pad(weights.cumsum(axis=1), ((0, 0), (1, 0)))
+    along_x = np.pad(weights.T.cumsum(axis=1), ((0, 0), (1, 0)))
+    return x, y, along_y, along_x
+
+
+def _nodes(families: Index, order: Int, plus: tuple[int, int], board: Board) -> Int:
+    """(N, 10) the families in the given order as nodes, with room for more."""
+    nodes = np.empty((2 * len(order) + SPARE, WIDTH), np.int64)
+    own = nodes[: len(order)]
+    own[:, :6] = families[order] + np.array([0, 0, plus[0], plus[0], plus[1], plus[1]])
+    own[:, FAMILY] = order
+    x, y = len(board[0]), len(board[1])
+    own[:, ORDER] = ((own[:, I0] * x + own[:, I1]) * y + own[:, J0]) * y + own[:, J1]
+    return nodes
+
+
+def _twice(rows: Int) -> Int:
+    """``rows`` with room for as many more."""
+    return np.concatenate([rows, np.empty_like(rows)])
 
 
 @_kernel
 def _cover_all(
-    spans: Index, codes: Int, steps: Int, total: Int, weights: Int, starts: Int, missing: Int
-) -> tuple[Int, Int]:
-    """Rows chosen and cells gained, component by component (rows ``starts[n]`` to ``starts[n + 1]``)."""
-    sums = _running_sums(weights), _running_sums(weights.T)
-    chosen, gained, size = np.empty(len(spans), np.int64), np.empty(len(spans), np.int64), 0
-    for n in range(len(missing)):
-        rows = slice(starts[n], starts[n + 1])
-        picks = _cover_component(
-            spans[rows], codes[rows], steps, total[rows], sums, missing[n], chosen[size:], gained[size:]
-        )
-        chosen[size : size + picks] += starts[n]
-        size += picks
-    return chosen[:size].copy(), gained[:size].copy()
+    state: Int, starts: Int, missing: Int, heap: Int, nodes: Int, board: Board, picks: Int
+) -> bool:
+    """Cover one component after the other (nodes ``starts[n]`` to ``starts[n + 1]``), writing to ``picks``.
+
+    Returns False where there is no more room for nodes; to be called again with more. ``state`` holds the
+    number of nodes, of nodes in the heap, of choices, of missing cells, and the component.
+    """
+    while _cover_component(state, heap, nodes, board, picks):
+        state[4] += 1
+        n = state[4]
+        if n == len(missing):
+            return True
+        state[0], state[1], state[3] = starts[-1], 0, missing[n]  # parts of the component before are no more
+        for k in range(starts[n], starts[n + 1]):
+            if _set_bound(k, nodes, board) > 0:
+                _sift_up(heap, state[1], k, nodes)
+                state[1] += 1
+    return False
 
 
 @_kernel
-def _cover_component(
-    spans: Index, codes: Int, steps: Int, total: Int, sums: Sums, missing: int, chosen: Int, gained: Int
-) -> int:
-    """Cover one component; writes the choices to ``chosen`` and ``gained`` and returns their number."""
-    gain = np.array([_remaining(sums, spans[k]) for k in range(len(spans))])
-    tree, heap, size = _hide(codes, steps, (total, gain, total))
-    least = _least_weight(tree, heap[:size], total)
-    keys, n = (total.copy(), gain.copy(), total.copy()), 0
-    while missing > 0:
+def _cover_component(state: Int, heap: Int, nodes: Int, board: Board, picks: Int) -> bool:
+    """Choose until nothing is missing; False where there is no more room for nodes."""
+    size, waiting, n, missing = state[0], state[1], state[2], state[3]
+    while missing > 0 and size < len(nodes):
         k = heap[0]
-        now = _remaining(sums, spans[k])
-        if now == gain[k]:
-            chosen[n], gained[n] = k, now
-            n += 1
-            missing -= now
-            _take_out(sums, spans[k])
-            now = 0
-        gain[k] = now
-        keys[0][k], keys[1][k], keys[2][k] = total[k], now, total[k]
-        if now == 0:
-            size -= 1
-            heap[0] = heap[size]
-        _sift_down(heap, size, 0, keys)
-        if now > 0:
-            size = _release(k, tree, spans, sums, total, gain, least, heap, size, keys)
-    return n
-
-
-@_kernel
-def _release(
-    k: int,
-    tree: Tree,
-    spans: Index,
-    sums: Sums,
-    total: Int,
-    gain: Int,
-    least: Int,
-    heap: Int,
-    size: int,
-    keys: Keys,
-) -> int:
-    """Put the rectangles that waited behind ``k`` into the heap; returns its size.
-
-    A child stands for all that wait behind it. Their ratios were no smaller than its own, A / gain; nor are
-    they smaller than the least weight among them over the cells that are left in the child. The better of
-    the two bounds is the key; as a mere bound the second comes before all ties.
-    """
-    child, tree[0][k] = tree[0][k], -1
-    while child >= 0:
-        left = _remaining(sums, spans[child])
-        if left < gain[child] and least[child] * gain[child] > total[child] * left:
-            keys[0][child], keys[1][child], keys[2][child] = least[child], left, BEFORE_TIES
+        ratio, gain = nodes[k, RATIO], nodes[k, GAIN]
+        left, cut = _set_bound(k, nodes, board), False
+        if left > 0 and nodes[k, RATIO] == ratio and left == gain:
+            if _is_single(k, nodes):
+                for column in range(WIDTH):
+                    picks[n, column] = nodes[k, column]
+                _take_out(k, nodes, board)
+                n, missing, left = n + 1, missing - gain, 0
+            else:
+                _halve(k, size, nodes, board)
+                left, cut = _set_bound(k, nodes, board), True
         if left > 0:
-            _sift_up(heap, size, child, keys)
-            size += 1
-        child = tree[1][child]
-    return size
-
-
-@_kernel
-def _least_weight(tree: Tree, roots: Int, total: Int) -> Int:
-    """(K,) least A among each rectangle and all that wait behind it."""
-    least, order, size = total.copy(), np.empty(len(total), np.int64), len(roots)
-    order[:size] = roots
-    parent = np.full(len(total), -1, np.int64)
-    for at in range(len(total)):
-        child = tree[0][order[at]]
-        while child >= 0:
-            parent[child] = order[at]
-            order[size] = child
-            size += 1
-            child = tree[1][child]
-    for at in range(len(total) - 1, len(roots) - 1, -1):
-        k = order[at]
-        least[parent[k]] = min(least[parent[k]], least[k])
-    return least
-
-
-@_kernel
-def _hide(codes: Int, steps: Int, keys: Keys) -> tuple[Tree, Int, int]:
-    """Hide every rectangle behind a neighbour that the greedy choice must prefer; heap of those left.
-
-    A neighbour differs by one plane on one side. R hides behind S where S precedes R at the start and holds
-    all free cells of R: then while |S & D| is what it was so is |R & D|, and S still precedes; once S is
-    chosen, or empty, nothing is left of R. Only when |S & D| is found to have fallen does R have to be
-    looked at.
-    """
-    parent = np.full(len(codes), -1, np.int64)
-    for step in steps:
-        p = 0
-        for k in range(len(codes)):
-            larger = codes[k] + step
-            while p < len(codes) and codes[p] < larger:
-                p += 1
-            if p == len(codes):
-                break
-            if codes[p] != larger or keys[1][p] < keys[1][k] or keys[0][p] < keys[0][k]:
-                continue
-            if _precedes(p, k, keys):
-                if parent[k] < 0 or _precedes(p, parent[k], keys):
-                    parent[k] = p
-            elif keys[1][p] == keys[1][k] and (parent[p] < 0 or _precedes(k, parent[p], keys)):
-                parent[p] = k
-    first_child, sibling = np.full(len(codes), -1, np.int64), np.full(len(codes), -1, np.int64)
-    heap, size = np.empty(len(codes), np.int64), 0
-    for k in range(len(codes)):
-        if parent[k] < 0:
-            _sift_up(heap, size, k, keys)
-            size += 1
+            _sift_down(heap, waiting, nodes)
         else:
-            sibling[k] = first_child[parent[k]]
-            first_child[parent[k]] = k
-    return (first_child, sibling), heap, size
+            waiting -= 1
+            _drop_first(heap, waiting, nodes)
+        if cut and _set_bound(size, nodes, board) > 0:
+            _sift_up(heap, waiting, size, nodes)
+            waiting += 1
+        size += cut
+    state[0], state[1], state[2], state[3] = size, waiting, n, missing
+    return bool(missing == 0)
 
 
 @_kernel
-def _running_sums(weights: Int) -> Int:
-    """(n, m + 1) sums of ``weights[i, :j]``."""
-    sums = np.zeros((weights.shape[0], weights.shape[1] + 1), np.int64)
-    for i in range(weights.shape[0]):
-        for j in range(weights.shape[1]):
-            sums[i, j + 1] = sums[i, j] + weights[i, j]
-    return sums
+def _in_order(picks: Int) -> Int:
+    """The choices of all components in the order of the greedy choice over the whole."""
+    heap, order = np.empty(len(picks), np.int64), np.empty(len(picks), np.int64)
+    for k in range(len(picks)):
+        _sift_up(heap, k, k, picks)
+    for n in range(len(picks)):
+        order[n] = heap[0]
+        _drop_first(heap, len(picks) - n - 1, picks)
+    return order
 
 
 @_kernel
-def _remaining(sums: Sums, span: Index) -> int:
-    """|R & D|, summed over the side of R that has fewer compressed cells."""
-    a, b, c, d = span
+def _is_single(k: int, nodes: Int) -> bool:
+    return bool(nodes[k, I1_END] - nodes[k, I1] == 1 and nodes[k, J1_END] - nodes[k, J1] == 1)
+
+
+@_inline
+def _set_bound(k: int, nodes: Int, board: Board) -> int:
+    """Compute the bound of node ``k`` for D as it is; returns |O & D|."""
+    x, y, along_y, along_x = board
+    a, b, c, d = nodes[k, I0], nodes[k, I1], nodes[k, J0], nodes[k, J1]
+    b_last, d_last = nodes[k, I1_END] - 1, nodes[k, J1_END] - 1
+    most = _remaining(x[a, 1], x[b_last, 1], y[c, 1], y[d_last, 1], along_y, along_x)
+    least = most
+    if b < b_last or d < d_last:
+        least = _remaining(x[a, 1], x[b, 1], y[c, 1], y[d, 1], along_y, along_x)
+    nodes[k, RATIO] = (x[b, 0] - x[a, 0]) * (y[d, 0] - y[c, 0]) - least + most
+    nodes[k, GAIN] = most
+    return int(most)
+
+
+@_inline
+def _remaining(x0: int, x1: int, y0: int, y1: int, along_y: Int, along_x: Int) -> int:
+    """|R & D| of the slots [x0, x1) x [y0, y1), summed over the side that has fewer."""
     count = 0
-    if b - a <= d - c:
-        for x in range(a, b):
-            count += sums[0][x, d] - sums[0][x, c]
+    if x1 - x0 <= y1 - y0:
+        for x in range(x0, x1):
+            count += along_y[x, y1] - along_y[x, y0]
     else:
-        for y in range(c, d):
-            count += sums[1][y, b] - sums[1][y, a]
+        for y in range(y0, y1):
+            count += along_x[y, x1] - along_x[y, x0]
     return count
 
 
 @_kernel
-def _take_out(sums: Sums, span: Index) -> None:
-    """D - R."""
-    _clear(sums[0], span[0], span[1], span[2], span[3])
-    _clear(sums[1], span[2], span[3], span[0], span[1])
+def _halve(k: int, new: int, nodes: Int, board: Board) -> None:
+    """Cut node ``k`` across the range that adds more area; the larger rectangles become node ``new``."""
+    x, y = board[0], board[1]
+    for column in range(WIDTH):
+        nodes[new, column] = nodes[k, column]
+    i1, i1_end, j1, j1_end = nodes[k, I1], nodes[k, I1_END], nodes[k, J1], nodes[k, J1_END]
+    wide = (x[i1_end - 1, 0] - x[i1, 0]) * (y[j1, 0] - y[nodes[k, J0], 0])
+    high = (y[j1_end - 1, 0] - y[j1, 0]) * (x[i1, 0] - x[nodes[k, I0], 0])
+    if j1_end - j1 == 1 or (i1_end - i1 > 1 and wide >= high):
+        middle = _middle(x, i1, i1_end)
+        nodes[k, I1_END] = nodes[new, I1] = middle
+        nodes[new, ORDER] += (middle - i1) * len(y) * len(y)
+    else:
+        middle = _middle(y, j1, j1_end)
+        nodes[k, J1_END] = nodes[new, J1] = middle
+        nodes[new, ORDER] += middle - j1
+
+
+@_kernel
+def _middle(planes: Int, first: int, end: int) -> int:
+    """The plane at which a range is cut: the first beyond the middle between its outer planes."""
+    half = (planes[first, 0] + planes[end - 1, 0]) // 2
+    middle = first + 1
+    while middle < end - 1 and planes[middle, 0] <= half:
+        middle += 1
+    return middle
+
+
+@_kernel
+def _take_out(k: int, nodes: Int, board: Board) -> None:
+    """D - R for the single rectangle ``k``."""
+    x, y, along_y, along_x = board
+    x0, x1, y0, y1 = x[nodes[k, I0], 1], x[nodes[k, I1], 1], y[nodes[k, J0], 1], y[nodes[k, J1], 1]
+    _clear(along_y, x0, x1, y0, y1)
+    _clear(along_x, y0, y1, x0, x1)
 
 
 @_kernel
@@ -220,47 +238,29 @@ def _clear(sums: Int, i0: int, i1: int, j0: int, j1: int) -> None:
             sums[i, j1:] -= taken
 
 
-@_kernel
-def _by_key(chosen: Int, gained: Int, total: Int) -> tuple[Int, Int]:
-    """The choices of all components in the order of the greedy choice over the whole."""
-    gain = np.zeros(len(total), np.int64)
-    keys = (total, gain, total)
-    heap, size = np.empty(len(chosen), np.int64), 0
-    for n in range(len(chosen)):
-        gain[chosen[n]] = gained[n]
-        _sift_up(heap, size, chosen[n], keys)
-        size += 1
-    for n in range(len(chosen)):
-        chosen[n] = heap[0]
-        gained[n] = gain[chosen[n]]
-        size -= 1
-        heap[0] = heap[size]
-        _sift_down(heap, size, 0, keys)
-    return chosen, gained
+@_inline
+def _precedes(k: int, m: int, nodes: Int) -> bool:
+    """True where the greedy choice looks at node k before m: smaller ratio, larger A, smaller index.
 
-
-@_kernel
-def _precedes(k: int, m: int, keys: Keys) -> bool:
-    """True where the greedy choice prefers rectangle k to m: smaller ratio, larger A, smaller index."""
-    left, right = keys[0][k] * keys[1][m], keys[0][m] * keys[1][k]
+    The numerator is A itself for a single rectangle, and a bound of A for a family.
+    """
+    left, right = nodes[k, RATIO] * nodes[m, GAIN], nodes[m, RATIO] * nodes[k, GAIN]
     if left != right:
         return bool(left < right)
-    if keys[2][k] != keys[2][m]:
-        return bool(keys[2][k] > keys[2][m])
-    return k < m
+    if nodes[k, RATIO] != nodes[m, RATIO]:
+        return bool(nodes[k, RATIO] > nodes[m, RATIO])
+    return bool(nodes[k, ORDER] < nodes[m, ORDER])
 
 
 @_kernel
-def _sift_down(heap: Int, size: int, at: int, keys: Keys) -> None:
-    """Restore the heap below position ``at``."""
-    moved = heap[at]
-    while True:
+def _sift_down(heap: Int, size: int, nodes: Int) -> None:
+    """Let the first node of the heap sink to its place."""
+    at, moved = 0, heap[0]
+    while 2 * at + 1 < size:
         child = 2 * at + 1
-        if child >= size:
-            break
-        if child + 1 < size and _precedes(heap[child + 1], heap[child], keys):
+        if child + 1 < size and _precedes(heap[child + 1], heap[child], nodes):
             child += 1
-        if not _precedes(heap[child], moved, keys):
+        if not _precedes(heap[child], moved, nodes):
             break
         heap[at] = heap[child]
         at = child
@@ -268,9 +268,21 @@ def _sift_down(heap: Int, size: int, at: int, keys: Keys) -> None:
 
 
 @_kernel
-def _sift_up(heap: Int, at: int, k: int, keys: Keys) -> None:
-    """Add ``k`` to a heap of ``at`` rectangles."""
-    while at > 0 and _precedes(k, heap[(at - 1) // 2], keys):
+def _drop_first(heap: Int, size: int, nodes: Int) -> None:
+    """Take the first out of a heap of ``size`` + 1: its gap sinks down, the last rises from there."""
+    at, child = 0, 1
+    while child < size:
+        if child + 1 < size and _precedes(heap[child + 1], heap[child], nodes):
+            child += 1
+        heap[at] = heap[child]
+        at, child = child, 2 * child + 1
+    _sift_up(heap, at, heap[size], nodes)
+
+
+@_kernel
+def _sift_up(heap: Int, at: int, k: int, nodes: Int) -> None:
+    """Let node ``k`` rise from position ``at`` to its place."""
+    while at > 0 and _precedes(k, heap[(at - 1) // 2], nodes):
         heap[at] = heap[(at - 1) // 2]
         at = (at - 1) // 2
     heap[at] = k

@@ -1,4 +1,4 @@
-"""Summed-area tables and the rule which cells an interval holds."""
+"""Counts between lines and the rule which cells an interval holds."""
 
 from __future__ import annotations
 
@@ -7,17 +7,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floorplan_core.geometry.summed_area import count, first_cells, summed_area
+from floorplan_core.geometry.summed_area import block_counts, first_cells
 
 
 @given(st.integers(0, 2**32))
-def test_counts_equal_slices(seed):
+def test_blocks_equal_slices(seed):
     rng = np.random.default_rng(seed)
     mask = rng.random(rng.integers(0, 9, 2)) < 0.5
-    r0, c0 = rng.integers(-3, 12, 2)
-    r1, c1 = r0 + rng.integers(-2, 9), c0 + rng.integers(-2, 9)
-    expected = mask[max(r0, 0) : max(r1, 0), max(c0, 0) : max(c1, 0)].sum()
-    assert count(summed_area(mask), (r0, r1), (c0, c1)) == expected
+    rows, columns = (np.sort(rng.integers(0, n + 1, rng.integers(0, 6))) for n in mask.shape)
+    found = block_counts(mask, rows, columns)
+    assert found.shape == (max(len(rows) - 1, 0), max(len(columns) - 1, 0))
+    for i in range(found.shape[0]):
+        for j in range(found.shape[1]):
+            assert found[i, j] == mask[rows[i] : rows[i + 1], columns[j] : columns[j + 1]].sum()
+
+
+def test_blocks_of_a_view():
+    mask = np.random.default_rng(0).random((12, 12)) < 0.5
+    lines = np.array([0, 2, 6])
+    assert (
+        block_counts(mask[::2, ::2].T, lines, lines) == block_counts(mask[::2, ::2], lines, lines).T
+    ).all()
 
 
 @pytest.mark.parametrize("cell", [0.1, 0.05, 0.25, 1 / 3])

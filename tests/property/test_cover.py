@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.buildings import building
 from floorplan_core.config import CandidatesConfig, CoverConfig
+from floorplan_core.model import CandidateSet
 from floorplan_core.simulation.layout import layout_only
 from floorplan_core.simulation.spec import BuildingSpec
 from floorplan_core.stages.candidates import enumerate_candidates
@@ -23,19 +25,29 @@ def candidates_of(layout: RandomLayout):
     return enumerate_candidates(*layout.planes, layout.blockers, layout.grid, layout.config)
 
 
+def in_order(candidates: CandidateSet) -> np.ndarray:
+    """The rows sorted by (i0, i1, j0, j1)."""
+    return np.lexsort(candidates.index().T[::-1])
+
+
 def expected_of(layout: RandomLayout):
     return valid_rectangles(*layout.planes, layout.blockers, layout.grid, layout.config)
 
 
 def assert_like_the_paper(layout: RandomLayout) -> int:
     found, expected = candidates_of(layout), expected_of(layout)
-    assert found.index.tolist() == [list(r[0]) for r in expected]
-    assert found.bounds().tolist() == [list(r[1]) for r in expected]
-    assert found.total_cells.tolist() == [r[2] for r in expected]
-    assert found.free_cells.tolist() == [r[3] for r in expected]
+    assert len(found) == len(expected)
+    order = in_order(found)
+    assert found.index()[order].tolist() == [list(r[0]) for r in expected]
+    assert found.bounds()[order].tolist() == [list(r[1]) for r in expected]
     cover = greedy_cover(found, layout.grid, SETTINGS)
     choices = plain_greedy(expected, layout.grid.universe)
-    assert list(zip(cover.chosen.tolist(), cover.gained.tolist(), strict=True)) == choices
+    rows = [expected[k] for k, _ in choices]
+    assert found.index()[cover.chosen].tolist() == [list(r[0]) for r in rows]
+    assert cover.bounds.tolist() == [list(r[1]) for r in rows]
+    assert cover.total_cells.tolist() == [r[2] for r in rows]
+    assert cover.free_cells.tolist() == [r[3] for r in rows]
+    assert cover.gained.tolist() == [gained for _, gained in choices]
     covered = np.any([expected[k][4] for k, _ in choices], axis=0) if choices else False
     assert (cover.uncovered == (layout.grid.universe & ~np.asarray(covered))).all()
     return len(expected)
@@ -79,9 +91,23 @@ def test_whole_buildings(style, rooms, extra):
     found = enumerate_candidates(*planes, layout.blockers, layout.grid, CandidatesConfig())
     cover = greedy_cover(found, layout.grid, SETTINGS)
     assert len(found) > 40
+    assert len(found.families) < len(found) / 2
     assert list(zip(cover.chosen.tolist(), cover.gained.tolist(), strict=True)) == array_greedy(
         found, layout.grid
     )
+
+
+def test_families_grow_with_the_corners_not_with_the_rectangles():
+    """A corridor four times as long has over nine times the rectangles, but hardly six times the families."""
+    sizes, families = [], []
+    for width in (40, 80, 160):
+        layout = building(width, 17, np.random.default_rng(3))
+        found = enumerate_candidates(*layout.planes, layout.blockers, layout.grid, CandidatesConfig())
+        sizes.append(len(found))
+        families.append(len(found.families))
+        assert len(found.families) < len(layout.x_plus) * len(layout.y_plus)
+    assert sizes[2] > 9 * sizes[0]
+    assert families[2] < 6 * families[0]
 
 
 def test_reference_agrees_on_everything_free():

@@ -88,10 +88,13 @@ def array_greedy(candidates: CandidateSet, grid: OccupancyGrid) -> list[tuple[in
     Ratios of whole numbers below 10^7 are equal as floats only where they are equal.
     """
     left = grid.universe.copy()
+    index = candidates.index()
+    order = np.lexsort(index.T[::-1])
+    x0, y0, x1, y1 = candidates.bounds()[order].T
+    total = _cells(x0, x1, grid.origin[0], grid.cell) * _cells(y0, y1, grid.origin[1], grid.cell)
     ny, nx = left.shape
     x = grid.origin[0] + grid.cell * (np.arange(nx) + 0.5)
     y = grid.origin[1] + grid.cell * (np.arange(ny) + 0.5)
-    x0, y0, x1, y1 = candidates.bounds().T
     c0, c1, r0, r1 = (np.searchsorted(v, b) for v, b in ((x, x0), (x, x1), (y, y0), (y, y1)))
     chosen = []
     while True:
@@ -99,7 +102,15 @@ def array_greedy(candidates: CandidateSet, grid: OccupancyGrid) -> list[tuple[in
         gains = table[r1, c1] - table[r0, c1] - table[r1, c0] + table[r0, c0]
         if not gains.any():
             return chosen
-        ratio = np.where(gains > 0, candidates.total_cells / np.maximum(gains, 1), np.inf)
-        best = int(np.lexsort([-candidates.total_cells, ratio])[0])
-        chosen.append((best, int(gains[best])))
+        ratio = np.where(gains > 0, total / np.maximum(gains, 1), np.inf)
+        best = int(np.lexsort([-total, ratio])[0])
+        chosen.append((int(order[best]), int(gains[best])))
         left[r0[best] : r1[best], c0[best] : c1[best]] = False
+
+
+def _cells(low: np.ndarray, high: np.ndarray, origin: float, cell: float) -> np.ndarray:
+    """Cells of an unbounded row with their centre in [low, high), for many intervals."""
+    first = int(np.floor((low.min(initial=0.0) - origin) / cell)) - 2
+    last = int(np.ceil((high.max(initial=0.0) - origin) / cell)) + 2
+    centres = origin + cell * (np.arange(first, last + 1) + 0.5)
+    return np.searchsorted(centres, high) - np.searchsorted(centres, low)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from floorplan_core.config import CandidatesConfig
+from floorplan_core.config import CandidatesConfig, CoverConfig
 from floorplan_core.errors import Cancelled, NoPlanError
 from floorplan_core.model import OccupancyGrid
 from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.stages.candidates import enumerate_candidates
+from floorplan_core.stages.set_cover import greedy_cover
 
 CONFIG = CandidatesConfig()
 NO_BLOCKERS = np.empty((0, 4))
@@ -29,9 +30,9 @@ def candidates(xp, xm, yp, ym, blockers=NO_BLOCKERS, grid=None, config=CONFIG, o
 
 def test_one_room():
     found = candidates([0], [4], [0], [3])
-    assert found.index.tolist() == [[0, 0, 0, 0]]
+    assert found.index().tolist() == [[0, 0, 0, 0]]
     assert found.bounds().tolist() == [[0, 0, 4, 3]]
-    assert found.total_cells.tolist() == found.free_cells.tolist() == [40 * 30]
+    assert found.families.tolist() == [[0, 0, 0, 1, 0, 1]]
 
 
 def test_enumerated_counts_every_pair_of_pairs():
@@ -69,13 +70,17 @@ def test_blockers_with_swapped_corners_block():
 
 def test_cells_beyond_the_grid_count_as_unobserved():
     found = candidates([-2], [4], [0], [3], grid=free_grid(3, 3))
-    assert found.total_cells.tolist() == [60 * 30]
-    assert found.free_cells.tolist() == [30 * 30]
+    chosen = greedy_cover(found, free_grid(3, 3), CoverConfig())
+    assert chosen.total_cells.tolist() == [60 * 30]
+    assert chosen.free_cells.tolist() == [30 * 30]
 
 
 def test_a_centre_on_the_lower_side_is_inside_and_on_the_upper_side_outside():
-    found = candidates([0.5], [2.5], [0], [2], grid=free_grid(4, 4, cell=1.0))
-    assert found.total_cells.tolist() == [2 * 2]  # centres 0.5 and 1.5 of x, 0.5 and 1.5 of y
+    grid = free_grid(4, 4, cell=1.0)
+    chosen = greedy_cover(candidates([0.5], [2.5], [0], [2], grid=grid), grid, CoverConfig())
+    assert (
+        chosen.total_cells.tolist() == chosen.gained.tolist() == [2 * 2]
+    )  # centres 0.5 and 1.5 of x, 0.5 and 1.5 of y
 
 
 def test_ratio():
@@ -102,6 +107,24 @@ def test_an_empty_courtyard_costs_nothing():
     far = np.linspace(20, 200, 1000)
     found = candidates([0, *far], [4, *far + 1], [0], [3])
     assert found.bounds().tolist() == [[0, 0, 4, 3], *[[0, 0, w, 3] for w in far + 1 if w <= 200]]
+
+
+def test_a_corridor_between_many_walls_is_a_family_a_corner():
+    """A hundred planes across a corridor: five thousand rectangles in a hundred families."""
+    east = np.arange(0, 100, 1.0)
+    found = candidates(east, east + 1.0, [0], [2], grid=free_grid(100, 2))
+    assert len(found) == 100 * 101 / 2
+    assert found.families.tolist() == [[k, 0, k, 100, 0, 1] for k in range(100)]
+
+
+def test_members_of_a_family_that_are_not_valid_are_cut_out():
+    """Only what reaches over the free cells is valid, and only up to the ratio."""
+    free = np.zeros((10, 100), dtype=bool)
+    free[:, 30:40] = True
+    grid = OccupancyGrid(np.zeros(2), 0.1, free.astype(np.uint8), free, 1.0)
+    config = CONFIG.model_copy(update={"max_ratio": 6.0})
+    found = candidates([0], np.arange(1, 11), [0], [1], grid=grid, config=config)
+    assert found.bounds()[:, 2].tolist() == [4, 5, 6]
 
 
 def test_too_many_candidates_is_one_clear_sentence():
