@@ -201,7 +201,7 @@ class CandidatesConfig(Section):
         le=10000,
     )
     max_count: int = setting(
-        10_000_000, "", "More valid rectangles than this are refused (32 bytes each).", ge=1, le=10**9
+        10_000_000, "", "More valid rectangles than this are refused.", ge=1, le=10**9
     )
 
 
