@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from floorcast_app.selection import Item
 from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane
-from floorplan_core.stages.doors import door_response
+from floorplan_core.stages.door_apertures import door_response
 
 Float = NDArray[np.float64]
 
