@@ -20,6 +20,7 @@ from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane, LayoutSeg
 Words = Callable[[str], str]
 
 EVIDENCE = {  # the stages' words of evidence as sentences
+    "open": "Rays crossed the wall here",
     "passage": "Free space runs through it",
     "path": "The sensor went through it",
     "lintel": "Wall was seen above it",

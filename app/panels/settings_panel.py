@@ -127,6 +127,7 @@ class SettingsPanel(Panel):
         layout.addLayout(top)
         layout.addWidget(self._area)
         self._found.hide()
+        self._changed.hide()
 
     def _fields(self, fields: Sequence[SettingField]) -> QWidget:
         holder = QWidget()
