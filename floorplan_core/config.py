@@ -73,6 +73,9 @@ class VoxelConfig(Section):
     """Voxel map and surfels."""
 
     size: float = setting(0.1, "m", "Side of a voxel of the occupancy map (paper: 0.1 m).", ge=0.02, le=1)
+    own_axes: bool = setting(
+        False, "", "Lay the voxels along the survey's own axes: where the file's world lies changes nothing."
+    )
     min_misses: int = setting(1, "rays", "Rays through a voxel that make it free.", ge=1, le=100)
     hit_ratio: float = setting(
         0.15, "", "Share of hits among hits and misses from which a voxel is occupied.", gt=0, le=1

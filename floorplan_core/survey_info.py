@@ -7,7 +7,7 @@ first look.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,6 @@ from floorplan_core.model import ManhattanFrame, Reconstruction, Trajectory
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
-from floorplan_core.stages.manhattan_frame import estimate_frame
 from floorplan_core.stages.storeys import find_storeys
 from floorplan_core.survey_map import SurveyMap
 
@@ -50,6 +49,7 @@ class SurveyInfo:
     frame: ManhattanFrame | None
     no_frame: str  # why there is none
     storeys: tuple[Storey, ...]  # none where the survey is planar
+    floor_shift: float  # metres to add to the heights of storeys to have them in the world frame
     planar: bool  # a scan in one plane: it has no heights
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...] = field(default=())
@@ -73,7 +73,7 @@ class SurveyInfo:
             "topics": list(self.topics),
             "manhattan": None if self.frame is None else _frame_facts(self.frame),
             "no_manhattan": self.no_frame,
-            "storeys": [_storey_facts(s, self.shift[2]) for s in self.storeys],
+            "storeys": [_storey_facts(s, self.floor_shift) for s in self.storeys],
             "assumptions": list(self.assumptions),
             "warnings": list(self.warnings),
         }
@@ -105,6 +105,7 @@ def describe(
         frame=frame,
         no_frame=why,
         storeys=() if seen.planar else storeys,
+        floor_shift=float(local.shift[2] + seen.own.centre[2]),
         planar=seen.planar,
         assumptions=survey.assumptions,
     )
@@ -137,17 +138,18 @@ def _directions(seen: SurveyMap, config: Config) -> tuple[ManhattanFrame | None,
         return None, "it holds no usable points", ()
     loose = config.frame.model_copy(update={"min_support": 0.0})
     try:
-        frame = estimate_frame(seen.sample(), loose)
+        frame = seen.frame(loose)
     except NoPlanError as error:
         return None, str(error), ()
-    return frame, "", find_storeys(seen.surfels.surfels(), frame, config.storeys)
+    own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
+    return frame, "", find_storeys(seen.surfels.surfels(), own, config.storeys)
 
 
 def _size(seen: SurveyMap, frame: ManhattanFrame | None) -> Float:
     if len(seen.surfels) == 0:
         return np.zeros(3)
     centres = seen.surfels.surfels().centroid
-    xyz = centres if frame is None else centres @ frame.rotation.T
+    xyz = centres if frame is None else centres @ (frame.rotation @ seen.own.rotation.T).T
     low, high = np.quantile(xyz, ENDS, axis=0)
     return np.asarray((high - low) * (1.0, 1.0, 0.0 if seen.planar else 1.0))  # it was lifted to walls
 
@@ -172,10 +174,10 @@ def _frame_facts(frame: ManhattanFrame) -> dict[str, float]:
 
 
 def _storey_facts(storey: Storey, shift_z: float) -> dict[str, float | None]:
-    ceiling = None if storey.ceiling_z is None else round(storey.ceiling_z + float(shift_z), 3)
+    ceiling = None if storey.ceiling_z is None else round(storey.ceiling_z + shift_z, 3)
     return {
         "storey": storey.number,
-        "floor_m": round(storey.floor_z + float(shift_z), 3) + 0.0,
+        "floor_m": round(storey.floor_z + shift_z, 3) + 0.0,
         "ceiling_m": ceiling,
     }
 

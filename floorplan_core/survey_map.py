@@ -8,19 +8,22 @@ lifted to walls of full height.
 
 from __future__ import annotations
 
+import math
 import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.config import Config
+from floorplan_core.config import Config, FrameConfig
 from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
+from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
-from floorplan_core.model import PointChunk, Trajectory
+from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
+from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
 
 Float = NDArray[np.float64]
 Points = NDArray[np.float64] | NDArray[np.float32]
@@ -40,7 +43,9 @@ class SurveyMap:
         self.rays = MissMap(config.voxels.size)
         self.seconds = 0.0  # spent on integrating so far
         self.planar = False  # True: a planar scan, lifted
+        self.own = OwnFrame()  # of the map: what takes the local frame into it
         self._limits = (config.input.min_range, config.input.max_range)
+        self._own_axes = config.voxels.own_axes
         self._path: list[Float] = []
         self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
         self._pool = ThreadPoolExecutor(1)
@@ -94,6 +99,10 @@ class SurveyMap:
             first = np.concatenate([w[0] for w in waiting])[:SAMPLE]
             self.planar = is_planar(first) and all(len(w[2]) for w in waiting)
             self._lattice = 0.0 if self.planar else lattice_spacing(first)
+            if (
+                self._own_axes and not self._lattice and not self.rays.blocks
+            ):  # voxels of the file keep their axes
+                self.own = own_frame(first)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
 
@@ -101,13 +110,21 @@ class SurveyMap:
         """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
         return self.surfels.surfels(every=max(1, len(self.surfels) // SAMPLE_SURFELS))
 
+    def frame(self, config: FrameConfig) -> ManhattanFrame:
+        """The Manhattan frame of the local frame (about the map's centre), estimated on the map."""
+        if config.yaw_deg is not None:
+            turned = math.degrees(math.atan2(self.own.rotation[1, 0], self.own.rotation[0, 0]))
+            config = config.model_copy(update={"yaw_deg": config.yaw_deg + turned})
+        return seen_from(estimate_frame(self.sample(), config), self.own.rotation)
+
     def path(self) -> Float:
-        """(M, 3) sensor positions so far, local frame."""
+        """(M, 3) sensor positions so far, frame of the map."""
         parts = [np.zeros((0, 3)), *self._path]
         if self._rows is not None:
             trajectory, first, last = self._rows
             parts.append(trajectory.origins[first : last + 1])
-        return np.concatenate(parts)
+        path = np.concatenate(parts)
+        return self.own.move_exactly(path) if self.own.is_another else path
 
     def _mark_free(self, centres: Points, side: float) -> None:
         """Free voxels that the file itself knows (an OctoMap): they need no viewpoints."""
@@ -138,7 +155,9 @@ class SurveyMap:
         self.seconds += time.perf_counter() - began
 
     def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
-        """The scan with a voxel map subdivided and a planar scan lifted."""
+        """The scan in the frame of the map, with a voxel map subdivided and a planar scan lifted."""
+        if self.own.is_another:
+            points, origins = self.own.move(points), self.own.move_exactly(origins)
         if self.planar:
             points, scan, origins = lift(points, scan, origins)
         elif self._lattice and self._lattice > self.surfels.size:

@@ -16,7 +16,8 @@ RECORD_BYTES = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)  # least record by p
 VLR_BYTES = 54
 COMPRESSED = 0x80  # bit of the point format that LAZ sets
 MAX_FIELDS = 1 << 14  # bytes of one record that can be meant
-LINEAR_UNITS = {9001: "m", 9002: "ft", 9003: "ft"}  # EPSG codes; the US foot differs by 2 parts in a million
+LINEAR_UNITS = {9001: "m", 9002: "ft", 9003: "us-ft"}  # EPSG codes
+FOOT, US_FOOT, FEET_APART = 0.3048, 1200 / 3937, 3e-7  # metres; half of what lies between them
 MODEL_TYPE, PROJECTED, LINEAR, GEOGRAPHIC = 1024, 3072, 3076, 2  # GeoTIFF keys, and a model type
 
 
@@ -90,7 +91,7 @@ def _check_chunk_table(path: Path, head: LasHead, total: int) -> None:
 
 
 def reference_system(vlrs: Any) -> tuple[str, str]:
-    """CRS (WKT or "EPSG:n", "" where none) and unit ("m", "ft", "deg" or "auto") of a file's records."""
+    """CRS (WKT or "EPSG:n", "" where none) and unit ("m", "ft", "us-ft", "deg" or "auto") that a file states."""
     for vlr in vlrs:
         text = getattr(vlr, "string", "")
         if type(vlr).__name__ == "WktCoordinateSystemVlr" and text:
@@ -108,15 +109,17 @@ def reference_system(vlrs: Any) -> tuple[str, str]:
 
 
 def unit_of_wkt(text: str) -> str:
-    """ "m" or "ft" of the first unit of length, "deg" for a geographic system, "auto" where it is neither."""
+    """ "m", "ft" or "us-ft" of the first unit of length, "deg" for a geographic system, else "auto"."""
     if re.match(r"\s*GEOG", text):
         return "deg"
     for factor in re.findall(r'UNIT\["[^"]*",\s*([0-9.eE+-]+)', text):
         value = float(factor) if re.fullmatch(r"[0-9]+\.?[0-9]*([eE][+-]?[0-9]+)?", factor) else 0.0
         if value == 1.0:
             return "m"
-        if abs(value - 0.3048) < 1e-5:
+        if abs(value - FOOT) < FEET_APART:
             return "ft"
+        if abs(value - US_FOOT) < FEET_APART:
+            return "us-ft"
     return "auto"
 
 

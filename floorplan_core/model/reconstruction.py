@@ -36,9 +36,11 @@ class LocalFrame:
     """
 
     scale: float = 1.0  # metres per file unit
-    unit: str = "m"  # "m", "cm", "mm" or "ft"
+    unit: str = "m"  # "m", "cm", "mm", "ft" or "us-ft"
     up: str = "z"  # the file's up axis: "x", "y", "z", "-x", "-y", "-z"
-    rotation: Float = field(default_factory=lambda: np.eye(3))  # (3, 3) file axes to z-up axes
+    rotation: Float = field(
+        default_factory=lambda: np.eye(3)
+    )  # (3, 3) file axes to z-up axes; det -1: mirrored
     shift: Float = field(default_factory=lambda: np.zeros(3))  # (3,) metres, world = local + shift
     crs: str = (
         ""  # coordinate reference system of the file (WKT or "EPSG:n") as it states it; "" where it does not
@@ -58,6 +60,8 @@ class PointChunk:
     stamps: Float | None = None  # (N,) seconds, or None
     free: NDArray[np.float32] | Float | None = None  # (M, 3) centres of voxels known to be free, local frame
     free_size: float = 0.0  # metres, side of those voxels; 0 where there are none
+    rgb: NDArray[np.uint8] | None = None  # (N, 3), for pictures only; None where the file has no colours
+    intensity: NDArray[np.float32] | None = None  # (N,) in the file's own scale, for pictures only; or None
 
 
 @dataclass(frozen=True)

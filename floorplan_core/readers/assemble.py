@@ -42,7 +42,11 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
         _check_rows(source, scan_id, len(path))
     near = path if path is not None and belongs(points, path) else None
     guess = _guess(source, points, near, options)
-    frame = replace(_local_frame(points, guess), crs=source.crs)
+    frame = replace(_local_frame(points, guess, options.input.mirrored), crs=source.crs)
+    if options.input.mirrored:
+        notes.append(
+            "The file is left-handed, as asked: its mirror image is planned, y of the world reversed."
+        )
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
     trajectory = None
@@ -84,8 +88,9 @@ def _guess(source: PointSource, points: Float, path: Trajectory | None, options:
     return replace(guess, sentences=tuple(sentences))
 
 
-def _local_frame(points: Float, guess: AxisGuess) -> LocalFrame:
-    frame = LocalFrame(METRES_PER_UNIT[guess.unit], guess.unit, guess.up, up_rotation(guess.up))
+def _local_frame(points: Float, guess: AxisGuess, mirrored: bool) -> LocalFrame:
+    turn = up_rotation(guess.up, mirrored)
+    frame = LocalFrame(METRES_PER_UNIT[guess.unit], guess.unit, guess.up, turn)
     return replace(frame, shift=choose_shift(world_points(points, frame)))
 
 
@@ -186,13 +191,15 @@ def _local_chunk(raw: RawChunk, frame: LocalFrame) -> tuple[PointChunk, int]:
     size = raw.free_size * frame.scale
     keep = keep_finite(points)
     if keep is None:
-        return PointChunk(points, raw.scan_id, raw.stamps, free, size), 0
+        return PointChunk(points, raw.scan_id, raw.stamps, free, size, raw.rgb, raw.intensity), 0
     chunk = PointChunk(
         points[keep],
         None if raw.scan_id is None else raw.scan_id[keep],
         None if raw.stamps is None else raw.stamps[keep],
         free,
         size,
+        None if raw.rgb is None else raw.rgb[keep],
+        None if raw.intensity is None else raw.intensity[keep],
     )
     return chunk, int(len(points) - len(chunk.points))
 

@@ -37,7 +37,7 @@ def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float |
     """
     if T_file_sensor is not None:
         return _moved(points, frame, T_file_sensor)
-    plain = frame.scale == 1.0 and not frame.shift.any() and frame.up == "z"
+    plain = frame.scale == 1.0 and not frame.shift.any() and np.array_equal(frame.rotation, np.eye(3))
     if plain and points.dtype == np.float32:
         return points
     out = np.empty(points.shape, dtype=np.float32)

@@ -10,6 +10,7 @@ sharpest. Cost: one pass over the surfels, plus the search on a bounded sample.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -29,8 +30,13 @@ _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up ax
 _SEARCH = math.radians(3)  # normals are right to this; the search for sharp walls covers it
 _OFFSET_BIN = 0.02  # m, of the projection that is to be sharp
 _SAMPLE = 30_000  # surfels that the search looks at
+_TOP = 8  # steps to both sides of the sharpest yaw through which a parabola is laid
+_BLOCK = 0.25  # m, side of the blocks that are sampled
+_PRIMES = np.array([73_856_093, 19_349_663, 83_492_791])  # Teschner et al. 2003, hashing of space
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
+_LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
+_LEVEL_REACHES = (0.3, 0.15, 0.08)  # m around the strongest level: first for a rough up, then for a better
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 
@@ -67,6 +73,20 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
 
 
+def seen_from(frame: ManhattanFrame, turn: Float) -> ManhattanFrame:
+    """``frame`` for points that ``turn`` (3, 3) takes into those that it was estimated on.
+
+    Of the four ways to lay x and y along the walls the one that turns least is taken, as in the estimate.
+    """
+    rotation = frame.rotation @ turn
+    heading = math.atan2(rotation[0, 1], rotation[0, 0])
+    yaw = float(_wrap(heading))
+    quarters = round((heading - yaw) / (math.pi / 2)) % 4
+    c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
+    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ rotation
+    return replace(frame, rotation=rotation, yaw=yaw)
+
+
 def _no_walls(area: float, voxels: int, height: float) -> str:
     what = f"No walls were found: only {area:.2f} m2 of vertical surface among {voxels} occupied voxels"
     if height < _FLAT:
@@ -96,7 +116,25 @@ def _gravity(normals: CellNormals) -> Float:
             break
         mean = (n[inside] * w[inside, None]).sum(axis=0)
         up = mean / np.linalg.norm(mean)
-    return up
+    return up if up[2] > math.cos(_LEVELLED) else _square_to_floor(normals, up)
+
+
+def _square_to_floor(normals: CellNormals, up: Float) -> Float:
+    """``up`` turned until the strongest level is level: patches of a tilted floor are cut askew by the cells,
+    and the mean of their normals is some tenths of a degree off; the floor as a whole is not."""
+    for reach in _LEVEL_REACHES:
+        flat = np.abs(normals.normal @ up) > math.cos(math.radians(10))
+        centre, weight = normals.centre[flat], normals.weight[flat]
+        height = centre @ up
+        bins = np.floor((height - height.min()) / reach).astype(np.int64)
+        peak = height.min() + (np.argmax(np.bincount(bins, weights=weight)) + 0.5) * reach
+        near = np.abs(height - peak) < reach
+        w = weight[near, None]
+        middle = (centre[near] * w).sum(axis=0) / w.sum()
+        off = centre[near] - middle
+        normal = np.linalg.eigh((off * w).T @ off)[1][:, 0]
+        up = normal * np.sign(normal @ up)
+    return np.asarray(up)
 
 
 def _rotation_to_z(up: Float) -> Float:
@@ -151,9 +189,8 @@ def _sharpest_yaw(
     usable, axis = usable[axis >= 0], axis[axis >= 0]
     if len(usable) == 0:
         return coarse
-    step = max(1, len(usable) // _SAMPLE)
-    points = surfels.centroid[usable[::step]] @ level.T
-    axis = axis[::step]
+    chosen = _spread_sample(surfels.centroid[usable], max(1, len(usable) // _SAMPLE))
+    points, axis = surfels.centroid[usable[chosen]] @ level.T, axis[chosen]
     points = points[:, :2] - points[:, :2].mean(axis=0)
     yaw = coarse
     fine = math.radians(config.yaw_step_deg)
@@ -161,7 +198,26 @@ def _sharpest_yaw(
         trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
         score = _sharpness(points, axis, trial, _OFFSET_BIN)
         yaw = float(trial[int(np.argmax(score))])
-    return float(_wrap(yaw))
+    return float(_wrap(_summit(trial, score)))
+
+
+def _summit(x: Float, score: Float) -> float:
+    """Where a parabola through the scores around the highest has its top: between the steps, and steady."""
+    best = int(np.argmax(score))
+    near = slice(max(0, best - _TOP), best + _TOP + 1)
+    step = float(x[1] - x[0])
+    a, b, _ = np.polyfit((x[near] - x[best]) / step, score[near] / score[best], 2)
+    offset = -b / (2 * a) if a < 0 else 0.0
+    return float(x[best] + step * np.clip(offset, -_TOP, _TOP))
+
+
+def _spread_sample(points: Float, every: int) -> NDArray[np.bool_]:
+    """(N,) one in ``every`` blocks of points, by a hash of its place: a few points more change little."""
+    if every == 1:
+        return np.ones(len(points), dtype=bool)
+    block = np.floor(points / _BLOCK).astype(np.int64)
+    mixed = (block * _PRIMES).sum(axis=1)
+    return np.asarray((mixed ^ (mixed >> 15)) % every == 0)
 
 
 @njit(cache=True, nogil=True)

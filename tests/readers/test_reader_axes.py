@@ -11,7 +11,7 @@ from reader_clouds import all_points, path_in_room, room, write_ply, write_tum, 
 from floorplan_core.config import InputConfig
 from floorplan_core.model import Trajectory
 from floorplan_core.readers import open_survey
-from floorplan_core.readers.axes import guess_axes
+from floorplan_core.readers.axes import PRIOR, guess_axes
 from floorplan_core.readers.layers import find_layers
 from floorplan_core.readers.ply import ply_source
 from floorplan_core.readers.trajectory import read_trajectory
@@ -54,7 +54,7 @@ def test_up_rotations_are_proper_and_lift_their_axis(up):
     np.testing.assert_allclose(R @ axis, [0, 0, 1])
 
 
-@pytest.mark.parametrize("unit", METRES_PER_UNIT)
+@pytest.mark.parametrize("unit", PRIOR)
 @pytest.mark.parametrize("up", ["x", "y", "z"])
 @pytest.mark.parametrize("size", [(8, 5, 2.6), (30, 14, 3.2), (4.2, 3.4, 2.4), (60, 2.8, 2.7)])
 def test_rooms(size, up, unit):
@@ -64,7 +64,7 @@ def test_rooms(size, up, unit):
     assert (guess.up, guess.unit) == (up, unit)
 
 
-@pytest.mark.parametrize("unit", METRES_PER_UNIT)
+@pytest.mark.parametrize("unit", PRIOR)
 @pytest.mark.parametrize("up", UP_AXES)
 def test_a_sensor_that_turns_tells_every_axis(tmp_path, up, unit):
     trajectory = read_trajectory(write_tum(tmp_path / "t.tum", path_in_room()))
@@ -83,7 +83,7 @@ def test_shared_surveys_turned_and_scaled(name):
     trajectory = read_trajectory(beside) if beside else None
     for given in (trajectory, None):
         for up in ("x", "y", "z"):
-            for unit in METRES_PER_UNIT:
+            for unit in PRIOR:
                 guess = guess_axes(*turned(points, given, up, unit), "auto", "auto")
                 assert (guess.up, guess.unit) == (up, unit)
 
