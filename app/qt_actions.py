@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction, QKeySequence
 
 from floorcast_app.actions.registry import Action
 from floorcast_app.icons import icon
-from floorcast_app.translation import tr_action
+from floorcast_app.translation import tr_action, tr_text
 from floorcast_app.workbench import Workbench
 
 
@@ -51,7 +51,7 @@ class QtActions(QObject):
         ):
             if id in self._by_id:
                 plain, _ = tr_action(self._workbench.actions[id])
-                self._by_id[id].setText(f"{plain}: {text}" if text else plain)
+                self._by_id[id].setText(f"{plain}: {tr_text(text)}" if text else plain)
 
     def retint(self) -> None:
         """Icons in the colours of the present theme."""

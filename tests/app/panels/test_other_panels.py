@@ -231,9 +231,12 @@ def test_the_empty_state_opens_what_is_dropped_and_what_was_recent(
     empty.show()
     qtbot.mouseClick(empty.drop.sample, LEFT)
     qtbot.mouseClick(empty.drop.open, LEFT)
-    cards = empty.findChildren(QToolButton, "recent")
-    qtbot.waitUntil(lambda: any(c.isVisible() for c in cards))
-    qtbot.mouseClick(next(c for c in cards if c.isVisible()), LEFT)
+
+    def cards() -> list[QToolButton]:
+        return [c for c in empty.findChildren(QToolButton, "recent") if c.isVisible()]
+
+    qtbot.waitUntil(lambda: bool(cards()))
+    qtbot.mouseClick(cards()[0], LEFT)
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(survey))])
     no, copy = Qt.KeyboardModifier.NoModifier, Qt.DropAction.CopyAction

@@ -1,0 +1,8773 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+ <context>
+  <name>Floorcast</name>
+  <message>
+   <source>1 door</source>
+   <translation>1 Tür</translation>
+  </message>
+  <message>
+   <source>3D view</source>
+   <translation>3D-Ansicht</translation>
+  </message>
+  <message>
+   <source>95 % of its points lie closer</source>
+   <translation>95 % der Punkte liegen näher</translation>
+  </message>
+  <message>
+   <source>95 % of the points lie closer than this</source>
+   <translation>95 % der Punkte liegen näher als dies</translation>
+  </message>
+  <message>
+   <source>95 % within {band}</source>
+   <translation>95 % innerhalb {band}</translation>
+  </message>
+  <message>
+   <source>A corridor opens into a hall</source>
+   <translation>Ein Flur mündet in eine Halle</translation>
+  </message>
+  <message>
+   <source>A corridor up to this wide ends where it opens into a hall.</source>
+   <translation>Ein Flur bis zu dieser Breite endet, wo er in eine Halle mündet.</translation>
+  </message>
+  <message>
+   <source>A distance between two points.</source>
+   <translation>Ein Abstand zwischen zwei Punkten.</translation>
+  </message>
+  <message>
+   <source>A door cannot be {0} m wide.</source>
+   <translation>Eine Tür kann nicht {0} m breit sein.</translation>
+  </message>
+  <message>
+   <source>A door is a 'door' or an 'opening', not {0}.</source>
+   <translation>Eine Tür ist „door“ oder „opening“, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A door, or an opening: wider, or without a lintel</source>
+   <translation>Eine Tür oder eine Öffnung: breiter oder ohne Sturz</translation>
+  </message>
+  <message>
+   <source>A label is a word, like room or corridor.</source>
+   <translation>Eine Bezeichnung ist ein Wort wie room oder corridor.</translation>
+  </message>
+  <message>
+   <source>A larger turning distance to the square is a corridor (paper: 1).</source>
+   <translation>Ein größerer Drehabstand zum Quadrat ist ein Flur (Artikel: 1).</translation>
+  </message>
+  <message>
+   <source>A lintel less deep is shallow.</source>
+   <translation>Ein Sturz von weniger Tiefe ist flach.</translation>
+  </message>
+  <message>
+   <source>A longer boundary is a corridor (paper: 60 m).</source>
+   <translation>Ein längerer Umriss ist ein Flur (Artikel: 60 m).</translation>
+  </message>
+  <message>
+   <source>A measured length must be above 0 m, not {0}.</source>
+   <translation>Eine gemessene Länge muss über 0 m sein, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A name must not be empty.</source>
+   <translation>Ein Name darf nicht leer sein.</translation>
+  </message>
+  <message>
+   <source>A normal this near to an axis supports the frame.</source>
+   <translation>Eine Normale, die so nahe an einer Achse liegt, stützt das Achsensystem.</translation>
+  </message>
+  <message>
+   <source>A person says so</source>
+   <translation>Ein Mensch sagt es</translation>
+  </message>
+  <message>
+   <source>A picture has 16 to 16384 pixels a side (asked: {0} x {1}).</source>
+   <translation>Ein Bild hat 16 bis 16384 Pixel je Seite (verlangt: {0} x {1}).</translation>
+  </message>
+  <message>
+   <source>A picture of one pane at any resolution.</source>
+   <translation>Ein Bild einer Ansicht in beliebiger Auflösung.</translation>
+  </message>
+  <message>
+   <source>A place is two numbers in metres, like (1.5, 2.0); given {0}.</source>
+   <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
+  </message>
+  <message>
+   <source>A surface that ends less than this below the ceiling touches it.</source>
+   <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
+  </message>
+  <message>
+   <source>A surface that reaches above this is no furniture.</source>
+   <translation>Eine Fläche, die höher reicht, ist kein Möbel.</translation>
+  </message>
+  <message>
+   <source>A terrestrial scanner sees a wall to millimetres; narrow tolerances tell a recess from its wall.</source>
+   <translation>Ein Standscanner misst eine Wand auf Millimeter; enge Toleranzen trennen eine Nische von ihrer Wand.</translation>
+  </message>
+  <message>
+   <source>A wall of {0} m is no wall: its thickness is between 0 and {1} m.</source>
+   <translation>Eine Wand von {0} m ist keine: Ihre Dicke liegt zwischen 0 und {1} m.</translation>
+  </message>
+  <message>
+   <source>A wider lintel between two walls that go on beyond it is a beam, and separates nothing.</source>
+   <translation>Ein breiterer Sturz zwischen zwei Wänden, die dahinter weitergehen, ist ein Unterzug und trennt nichts.</translation>
+  </message>
+  <message>
+   <source>A3 at 300 dpi</source>
+   <translation>A3 mit 300 dpi</translation>
+  </message>
+  <message>
+   <source>About Floorcast</source>
+   <translation>Über Floorcast</translation>
+  </message>
+  <message>
+   <source>Above the floor</source>
+   <translation>Über dem Boden</translation>
+  </message>
+  <message>
+   <source>Accept door</source>
+   <translation>Tür bestätigen</translation>
+  </message>
+  <message>
+   <source>Accept {0}</source>
+   <translation>{0} bestätigen</translation>
+  </message>
+  <message>
+   <source>Accepted by hand</source>
+   <translation>Von Hand bestätigt</translation>
+  </message>
+  <message>
+   <source>Add a measurement…</source>
+   <translation>Messung hinzufügen…</translation>
+  </message>
+  <message>
+   <source>Add door</source>
+   <translation>Tür hinzufügen</translation>
+  </message>
+  <message>
+   <source>Add wall</source>
+   <translation>Wand hinzufügen</translation>
+  </message>
+  <message>
+   <source>Added by hand</source>
+   <translation>Von Hand hinzugefügt</translation>
+  </message>
+  <message>
+   <source>Agreement</source>
+   <translation>Übereinstimmung</translation>
+  </message>
+  <message>
+   <source>All files</source>
+   <translation>Alle Dateien</translation>
+  </message>
+  <message>
+   <source>All settings as they come.</source>
+   <translation>Alle Einstellungen wie geliefert.</translation>
+  </message>
+  <message>
+   <source>All shortcuts and gestures on one sheet.</source>
+   <translation>Alle Tastenkürzel und Gesten auf einem Blatt.</translation>
+  </message>
+  <message>
+   <source>All steps so far; click one to go back to it.</source>
+   <translation>Alle bisherigen Schritte; ein Klick führt dorthin zurück.</translation>
+  </message>
+  <message>
+   <source>Along the way it faces</source>
+   <translation>In der Richtung, in die sie weist</translation>
+  </message>
+  <message>
+   <source>An observed offset may differ this much from its plane (3 sigma).</source>
+   <translation>So weit darf eine gemessene Lage von ihrer Ebene abweichen (3 Sigma).</translation>
+  </message>
+  <message>
+   <source>Angle</source>
+   <translation>Winkel</translation>
+  </message>
+  <message>
+   <source>Aperture</source>
+   <translation>Öffnungsbreite</translation>
+  </message>
+  <message>
+   <source>Area</source>
+   <translation>Fläche</translation>
+  </message>
+  <message>
+   <source>As in the paper</source>
+   <translation>Wie im Artikel</translation>
+  </message>
+  <message>
+   <source>Auto</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Automatic</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Back to the plan of all that was measured</source>
+   <translation>Zurück zum Plan aus allem, was gemessen wurde</translation>
+  </message>
+  <message>
+   <source>Back to {value}</source>
+   <translation>Zurück auf {value}</translation>
+  </message>
+  <message>
+   <source>Below this share of supporting wall there is no Manhattan frame.</source>
+   <translation>Stützt ein kleinerer Anteil der Wände, gibt es kein Manhattan-Achsensystem.</translation>
+  </message>
+  <message>
+   <source>Bin</source>
+   <translation>Klassenbreite</translation>
+  </message>
+  <message>
+   <source>Bridge</source>
+   <translation>Überbrückung</translation>
+  </message>
+  <message>
+   <source>Bring it into view</source>
+   <translation>Ins Bild holen</translation>
+  </message>
+  <message>
+   <source>Bring one pane to the front.</source>
+   <translation>Eine Ansicht nach vorne holen.</translation>
+  </message>
+  <message>
+   <source>Bring the selected thing into view.</source>
+   <translation>Das Gewählte ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Bring the whole plan into view.</source>
+   <translation>Den ganzen Plan ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>By hand</source>
+   <translation>Von Hand</translation>
+  </message>
+  <message>
+   <source>Camera, ceiling cut and section box by numbers.</source>
+   <translation>Kamera, Deckenschnitt und Schnittquader nach Zahlen.</translation>
+  </message>
+  <message>
+   <source>Cancel</source>
+   <translation>Abbrechen</translation>
+  </message>
+  <message>
+   <source>Cancel (Esc)</source>
+   <translation>Abbrechen (Esc)</translation>
+  </message>
+  <message>
+   <source>Cancel the work, then the gesture, then the selection</source>
+   <translation>Bricht die Arbeit ab, dann die Geste, dann die Auswahl</translation>
+  </message>
+  <message>
+   <source>Cancelled.</source>
+   <translation>Abgebrochen.</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles</source>
+   <translation>Kandidatenrechtecke</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles and their pruning.</source>
+   <translation>Kandidatenrechtecke und ihre Auslese.</translation>
+  </message>
+  <message>
+   <source>Candidates</source>
+   <translation>Kandidaten</translation>
+  </message>
+  <message>
+   <source>Candidates that the greedy cover chose</source>
+   <translation>Kandidaten, die die gierige Überdeckung gewählt hat</translation>
+  </message>
+  <message>
+   <source>Cannot write the picture {0}.</source>
+   <translation>Das Bild {0} kann nicht geschrieben werden.</translation>
+  </message>
+  <message>
+   <source>Ceiling cut</source>
+   <translation>Deckenschnitt</translation>
+  </message>
+  <message>
+   <source>Ceiling gap</source>
+   <translation>Abstand zur Decke</translation>
+  </message>
+  <message>
+   <source>Cell</source>
+   <translation>Zelle</translation>
+  </message>
+  <message>
+   <source>Cells</source>
+   <translation>Zellen</translation>
+  </message>
+  <message>
+   <source>Cells in which normals are fitted.</source>
+   <translation>Zellen, in denen Normalen bestimmt werden.</translation>
+  </message>
+  <message>
+   <source>Change a setting…</source>
+   <translation>Einstellung ändern…</translation>
+  </message>
+  <message>
+   <source>Change one number of the method; only what depends on it is planned again.</source>
+   <translation>Eine Zahl des Verfahrens ändern; nur was davon abhängt, wird neu geplant.</translation>
+  </message>
+  <message>
+   <source>Change several settings in one step.</source>
+   <translation>Mehrere Einstellungen in einem Schritt ändern.</translation>
+  </message>
+  <message>
+   <source>Changed</source>
+   <translation>Geändert</translation>
+  </message>
+  <message>
+   <source>Check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>Check {name}</source>
+   <translation>Messung {name}</translation>
+  </message>
+  <message>
+   <source>Classifier</source>
+   <translation>Klassifikator</translation>
+  </message>
+  <message>
+   <source>Clear the selection (Esc does it, too).</source>
+   <translation>Die Auswahl aufheben (auch mit Esc).</translation>
+  </message>
+  <message>
+   <source>Click</source>
+   <translation>Klick</translation>
+  </message>
+  <message>
+   <source>Click to select, drag what is selected.</source>
+   <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Click two regions that are one.</source>
+   <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Close</source>
+   <translation>Schließen</translation>
+  </message>
+  <message>
+   <source>Close the program.</source>
+   <translation>Das Programm beenden.</translation>
+  </message>
+  <message>
+   <source>Close the survey.</source>
+   <translation>Die Aufnahme schließen.</translation>
+  </message>
+  <message>
+   <source>Close without saving?</source>
+   <translation>Ohne Speichern schließen?</translation>
+  </message>
+  <message>
+   <source>Colour the points by facing.</source>
+   <translation>Die Punkte nach Richtung färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by height.</source>
+   <translation>Die Punkte nach Höhe färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by intensity.</source>
+   <translation>Die Punkte nach Intensität färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by its own colour.</source>
+   <translation>Die Punkte in eigener Farbe zeigen.</translation>
+  </message>
+  <message>
+   <source>Colour the points by plane.</source>
+   <translation>Die Punkte nach Ebene färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by {0}.</source>
+   <translation>Die Punkte nach {0} färben.</translation>
+  </message>
+  <message>
+   <source>Compact isolated objects up to this size are furniture or columns.</source>
+   <translation>Kompakte freistehende Objekte bis zu dieser Größe sind Möbel oder Stützen.</translation>
+  </message>
+  <message>
+   <source>Confidence</source>
+   <translation>Sicherheit</translation>
+  </message>
+  <message>
+   <source>Copy</source>
+   <translation>Kopieren</translation>
+  </message>
+  <message>
+   <source>Copy picture</source>
+   <translation>Bild kopieren</translation>
+  </message>
+  <message>
+   <source>Corner</source>
+   <translation>Ecke</translation>
+  </message>
+  <message>
+   <source>Correct</source>
+   <translation>Korrigieren</translation>
+  </message>
+  <message>
+   <source>Corrected</source>
+   <translation>Korrigiert</translation>
+  </message>
+  <message>
+   <source>Correction</source>
+   <translation>Korrektur</translation>
+  </message>
+  <message>
+   <source>Cover</source>
+   <translation>Überdeckung</translation>
+  </message>
+  <message>
+   <source>Covering the free space</source>
+   <translation>Freiraum überdecken</translation>
+  </message>
+  <message>
+   <source>Crop height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Dark</source>
+   <translation>Dunkel</translation>
+  </message>
+  <message>
+   <source>Dark colours for dark rooms.</source>
+   <translation>Dunkle Farben für dunkle Räume.</translation>
+  </message>
+  <message>
+   <source>Delete</source>
+   <translation>Löschen</translation>
+  </message>
+  <message>
+   <source>Depth camera, noisy</source>
+   <translation>Tiefenkamera, verrauscht</translation>
+  </message>
+  <message>
+   <source>Deutsch</source>
+   <translation>Deutsch</translation>
+  </message>
+  <message>
+   <source>Dimensions</source>
+   <translation>Maße</translation>
+  </message>
+  <message>
+   <source>Discard</source>
+   <translation>Verwerfen</translation>
+  </message>
+  <message>
+   <source>Dismiss</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Distance between the two points on the plan</source>
+   <translation>Abstand der beiden Punkte im Plan</translation>
+  </message>
+  <message>
+   <source>Do again what was taken back.</source>
+   <translation>Das Zurückgenommene wiederholen.</translation>
+  </message>
+  <message>
+   <source>Door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>Door evidence</source>
+   <translation>Türbelege</translation>
+  </message>
+  <message>
+   <source>Door opening</source>
+   <translation>Türverengung</translation>
+  </message>
+  <message>
+   <source>Door wall</source>
+   <translation>Wandanteil an Türen</translation>
+  </message>
+  <message>
+   <source>Door {name}</source>
+   <translation>Tür {name}</translation>
+  </message>
+  <message>
+   <source>Doors</source>
+   <translation>Türen</translation>
+  </message>
+  <message>
+   <source>Doors by histogram, smoothed gradient and matched filter.</source>
+   <translation>Türen durch Histogramm, geglätteten Gradienten und angepasstes Filter.</translation>
+  </message>
+  <message>
+   <source>Doors that are less probable are not reported.</source>
+   <translation>Weniger wahrscheinliche Türen werden nicht gemeldet.</translation>
+  </message>
+  <message>
+   <source>Double click</source>
+   <translation>Doppelklick</translation>
+  </message>
+  <message>
+   <source>Drag a selected plane or type its offset; two clicks add one.</source>
+   <translation>Eine gewählte Ebene ziehen oder ihre Lage eingeben; zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
+   <source>Drag a selected wall</source>
+   <translation>Eine gewählte Wand ziehen</translation>
+  </message>
+  <message>
+   <source>Drag the end of a selected door</source>
+   <translation>Das Ende einer gewählten Tür ziehen</translation>
+  </message>
+  <message>
+   <source>Draw a wall that the machine does not know: two clicks.</source>
+   <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
+  </message>
+  <message>
+   <source>Drop a survey or a project here</source>
+   <translation>Aufnahme oder Projekt hier ablegen</translation>
+  </message>
+  <message>
+   <source>Edit</source>
+   <translation>Bearbeiten</translation>
+  </message>
+  <message>
+   <source>English</source>
+   <translation>English</translation>
+  </message>
+  <message>
+   <source>Esc</source>
+   <translation>Esc</translation>
+  </message>
+  <message>
+   <source>Exact cover</source>
+   <translation>Exakte Überdeckung</translation>
+  </message>
+  <message>
+   <source>Export CSV…</source>
+   <translation>CSV exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table</source>
+   <translation>Die Kontrolltabelle exportieren</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table…</source>
+   <translation>Kontrolltabelle exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the plan</source>
+   <translation>Den Plan exportieren</translation>
+  </message>
+  <message>
+   <source>Exported {0}.</source>
+   <translation>{0} exportiert.</translation>
+  </message>
+  <message>
+   <source>Exporting</source>
+   <translation>Exportieren</translation>
+  </message>
+  <message>
+   <source>Export…</source>
+   <translation>Exportieren…</translation>
+  </message>
+  <message>
+   <source>Faces</source>
+   <translation>Weist nach</translation>
+  </message>
+  <message>
+   <source>Faces east</source>
+   <translation>Weist nach Osten</translation>
+  </message>
+  <message>
+   <source>Faces north</source>
+   <translation>Weist nach Norden</translation>
+  </message>
+  <message>
+   <source>Faces south</source>
+   <translation>Weist nach Süden</translation>
+  </message>
+  <message>
+   <source>Faces west</source>
+   <translation>Weist nach Westen</translation>
+  </message>
+  <message>
+   <source>Facing</source>
+   <translation>Richtung</translation>
+  </message>
+  <message>
+   <source>Facings are known once there is a plan: points by height</source>
+   <translation>Richtungen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Feet and inches</source>
+   <translation>Fuß und Zoll</translation>
+  </message>
+  <message>
+   <source>File</source>
+   <translation>Datei</translation>
+  </message>
+  <message>
+   <source>Filter</source>
+   <translation>Filter</translation>
+  </message>
+  <message>
+   <source>Find a command…</source>
+   <translation>Befehl suchen…</translation>
+  </message>
+  <message>
+   <source>Find the survey…</source>
+   <translation>Aufnahme suchen…</translation>
+  </message>
+  <message>
+   <source>Find {0}</source>
+   <translation>{0} suchen</translation>
+  </message>
+  <message>
+   <source>Finding the axes</source>
+   <translation>Achsen bestimmen</translation>
+  </message>
+  <message>
+   <source>Finding the storeys</source>
+   <translation>Geschosse bestimmen</translation>
+  </message>
+  <message>
+   <source>Fit</source>
+   <translation>Einpassen</translation>
+  </message>
+  <message>
+   <source>Floor plan</source>
+   <translation>Grundriss</translation>
+  </message>
+  <message>
+   <source>Floor plans with what was not seen, after the paper “{title}” by Shariati, Pfrommer and Taylor.</source>
+   <translation>Grundrisse samt dem, was nicht gesehen wurde, nach dem Artikel „{title}“ von Shariati, Pfrommer und Taylor.</translation>
+  </message>
+  <message>
+   <source>Floor to ceiling</source>
+   <translation>Vom Boden zur Decke</translation>
+  </message>
+  <message>
+   <source>Floorcast did not end well. {title} was kept as it was at {when}.</source>
+   <translation>Floorcast wurde unerwartet beendet. {title} ist auf dem Stand von {when} erhalten.</translation>
+  </message>
+  <message>
+   <source>Floorcast failed in this job ({0}: {1}).</source>
+   <translation>Floorcast ist bei dieser Arbeit gescheitert ({0}: {1}).</translation>
+  </message>
+  <message>
+   <source>For as-built drawings; a region needs at least a third of its floor seen, and doubtful doors are left out.</source>
+   <translation>Für Bestandspläne: Von einer Region muss mindestens ein Drittel gesehen sein, zweifelhafte Türen entfallen.</translation>
+  </message>
+  <message>
+   <source>For scripts: select things by kind and id.</source>
+   <translation>Für Skripte: Dinge nach Art und Kennung wählen.</translation>
+  </message>
+  <message>
+   <source>Force the yaw of the walls instead of estimating it.</source>
+   <translation>Die Drehung der Wände vorgeben, statt sie zu schätzen.</translation>
+  </message>
+  <message>
+   <source>Four panes side by side.</source>
+   <translation>Vier Ansichten nebeneinander.</translation>
+  </message>
+  <message>
+   <source>Frame</source>
+   <translation>Achsensystem</translation>
+  </message>
+  <message>
+   <source>Free</source>
+   <translation>Frei</translation>
+  </message>
+  <message>
+   <source>Free space</source>
+   <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space ends there along a straight line</source>
+   <translation>Der Freiraum endet dort an einer geraden Linie</translation>
+  </message>
+  <message>
+   <source>Free space runs through it</source>
+   <translation>Freiraum geht hindurch</translation>
+  </message>
+  <message>
+   <source>Free space that was not seen</source>
+   <translation>Freiraum, der nicht gesehen wurde</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Von</translation>
+  </message>
+  <message>
+   <source>From a ceiling to the floor of the storey above it at most.</source>
+   <translation>Höchstens von einer Decke zum Boden des Geschosses darüber.</translation>
+  </message>
+  <message>
+   <source>From a floor to the ceiling above it at least.</source>
+   <translation>Mindestens von einem Boden zur Decke darüber.</translation>
+  </message>
+  <message>
+   <source>From plan</source>
+   <translation>Aus dem Plan</translation>
+  </message>
+  <message>
+   <source>From the floor to the lintel</source>
+   <translation>Vom Boden bis zum Sturz</translation>
+  </message>
+  <message>
+   <source>From what was measured to the plan that explains it.</source>
+   <translation>Vom Gemessenen zum Plan, der es erklärt.</translation>
+  </message>
+  <message>
+   <source>Front</source>
+   <translation>Vorne</translation>
+  </message>
+  <message>
+   <source>Furniture height</source>
+   <translation>Möbelhöhe</translation>
+  </message>
+  <message>
+   <source>Furniture ratio</source>
+   <translation>Möbelverhältnis</translation>
+  </message>
+  <message>
+   <source>Furniture size</source>
+   <translation>Möbelgröße</translation>
+  </message>
+  <message>
+   <source>Give it the name that people use.</source>
+   <translation>Den Namen geben, den die Leute benutzen.</translation>
+  </message>
+  <message>
+   <source>Gradient</source>
+   <translation>Gradient</translation>
+  </message>
+  <message>
+   <source>Grid {step}</source>
+   <translation>Raster {step}</translation>
+  </message>
+  <message>
+   <source>Ground truth</source>
+   <translation>Kontrollmaße</translation>
+  </message>
+  <message>
+   <source>Guessed sides</source>
+   <translation>Geratene Seiten</translation>
+  </message>
+  <message>
+   <source>Halls and long ranges</source>
+   <translation>Hallen und große Weiten</translation>
+  </message>
+  <message>
+   <source>Height</source>
+   <translation>Höhe</translation>
+  </message>
+  <message>
+   <source>Height h above the floor; none: the height that shows most free cells.</source>
+   <translation>Höhe h über dem Boden; keine: die Höhe mit den meisten freien Zellen.</translation>
+  </message>
+  <message>
+   <source>Height of the slice above the floor</source>
+   <translation>Höhe des Schnitts über dem Boden</translation>
+  </message>
+  <message>
+   <source>Help</source>
+   <translation>Hilfe</translation>
+  </message>
+  <message>
+   <source>Hide</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Hide it in the panes</source>
+   <translation>In den Ansichten ausblenden</translation>
+  </message>
+  <message>
+   <source>Histogram</source>
+   <translation>Histogramm</translation>
+  </message>
+  <message>
+   <source>Histogram, gradient and matched filter along the wall</source>
+   <translation>Histogramm, Gradient und angepasstes Filter entlang der Wand</translation>
+  </message>
+  <message>
+   <source>History</source>
+   <translation>Verlauf</translation>
+  </message>
+  <message>
+   <source>History…</source>
+   <translation>Verlauf…</translation>
+  </message>
+  <message>
+   <source>Hit ratio</source>
+   <translation>Trefferanteil</translation>
+  </message>
+  <message>
+   <source>How sure</source>
+   <translation>Wie sicher</translation>
+  </message>
+  <message>
+   <source>How the file is read.</source>
+   <translation>Wie die Datei gelesen wird.</translation>
+  </message>
+  <message>
+   <source>In stations, shops and plants walls are far and doors are wide; points are kept to 100 m.</source>
+   <translation>In Bahnhöfen, Läden und Werken sind Wände fern und Türen breit; Punkte gelten bis 100 m.</translation>
+  </message>
+  <message>
+   <source>In use</source>
+   <translation>In Gebrauch</translation>
+  </message>
+  <message>
+   <source>Indoor share</source>
+   <translation>Innenanteil</translation>
+  </message>
+  <message>
+   <source>Input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>Inspect</source>
+   <translation>Prüfen</translation>
+  </message>
+  <message>
+   <source>Intensity</source>
+   <translation>Intensität</translation>
+  </message>
+  <message>
+   <source>Isolated objects longer than this times their width are pieces of wall.</source>
+   <translation>Freistehende Objekte, die länger als das Soundsovielfache ihrer Breite sind, sind Wandstücke.</translation>
+  </message>
+  <message>
+   <source>It is a door, however sure the machine is.</source>
+   <translation>Es ist eine Tür, wie sicher das Programm auch ist.</translation>
+  </message>
+  <message>
+   <source>It is a wall, even where the machine takes it for furniture; also switches a wall on again.</source>
+   <translation>Es ist eine Wand, auch wo das Programm sie für ein Möbel hält; schaltet eine Wand auch wieder ein.</translation>
+  </message>
+  <message>
+   <source>It is long, and its top was not seen</source>
+   <translation>Sie ist lang, ihr oberes Ende wurde nicht gesehen</translation>
+  </message>
+  <message>
+   <source>It is low</source>
+   <translation>Sie ist niedrig</translation>
+  </message>
+  <message>
+   <source>It is narrow between two wide spaces</source>
+   <translation>Es ist eng zwischen zwei weiten Räumen</translation>
+  </message>
+  <message>
+   <source>It is no door: the wall goes on here.</source>
+   <translation>Es ist keine Tür: Die Wand geht hier weiter.</translation>
+  </message>
+  <message>
+   <source>It is no wall: it bounds no room and keeps none apart.</source>
+   <translation>Es ist keine Wand: Sie begrenzt und trennt keinen Raum.</translation>
+  </message>
+  <message>
+   <source>It reaches above furniture</source>
+   <translation>Sie reicht höher als Möbel</translation>
+  </message>
+  <message>
+   <source>It reaches the ceiling</source>
+   <translation>Sie reicht bis zur Decke</translation>
+  </message>
+  <message>
+   <source>It was seen from both sides of the wall</source>
+   <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Its thickness</source>
+   <translation>Ihre Dicke</translation>
+  </message>
+  <message>
+   <source>Join gap</source>
+   <translation>Verbindungslücke</translation>
+  </message>
+  <message>
+   <source>Joins</source>
+   <translation>Verbindet</translation>
+  </message>
+  <message>
+   <source>Keep it whatever the machine finds</source>
+   <translation>Behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>Keep wall</source>
+   <translation>Wand behalten</translation>
+  </message>
+  <message>
+   <source>Keep {0}</source>
+   <translation>{0} behalten</translation>
+  </message>
+  <message>
+   <source>Kept by hand</source>
+   <translation>Von Hand behalten</translation>
+  </message>
+  <message>
+   <source>Kept whatever the machine finds</source>
+   <translation>Wird behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>LOA</source>
+   <translation>LOA</translation>
+  </message>
+  <message>
+   <source>Label {0} {1}</source>
+   <translation>{0} als {1} bezeichnen</translation>
+  </message>
+  <message>
+   <source>Labelled by hand</source>
+   <translation>Von Hand bezeichnet</translation>
+  </message>
+  <message>
+   <source>Labels</source>
+   <translation>Bezeichnungen</translation>
+  </message>
+  <message>
+   <source>Large screen</source>
+   <translation>Großer Bildschirm</translation>
+  </message>
+  <message>
+   <source>Largest angle of a surface to the axis of its facing.</source>
+   <translation>Größter Winkel einer Fläche zur Achse ihrer Richtung.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a cell's thickness to its width.</source>
+   <translation>Größtes Verhältnis von Dicke zu Breite einer Zelle.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a door's width to the free width beyond, on both sides.</source>
+   <translation>Größtes Verhältnis der Türbreite zur freien Breite dahinter, auf beiden Seiten.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of half a corridor's width to the hall's inscribed radius.</source>
+   <translation>Größtes Verhältnis der halben Flurbreite zum Inkreisradius der Halle.</translation>
+  </message>
+  <message>
+   <source>Laser meter</source>
+   <translation>Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Lay the voxels along the survey's own axes: where the file's world lies changes nothing.</source>
+   <translation>Die Voxel längs der Achsen der Aufnahme legen: Wo die Welt der Datei liegt, ändert nichts.</translation>
+  </message>
+  <message>
+   <source>Layers</source>
+   <translation>Layer</translation>
+  </message>
+  <message>
+   <source>Layout planes</source>
+   <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Layout segments: observed patches of structural surfaces.</source>
+   <translation>Wandstücke: gesehene Flecken baulicher Flächen.</translation>
+  </message>
+  <message>
+   <source>Least share of a space that its rectangles must explain; else the map's outline is taken.</source>
+   <translation>Mindestanteil eines Raums, den seine Rechtecke erklären müssen; sonst gilt der Umriss der Karte.</translation>
+  </message>
+  <message>
+   <source>Least share of wall in the line of a door, the door included.</source>
+   <translation>Mindestanteil an Wand in der Linie einer Tür, die Tür eingeschlossen.</translation>
+  </message>
+  <message>
+   <source>Left drag in 3D</source>
+   <translation>Ziehen mit links in 3D</translation>
+  </message>
+  <message>
+   <source>Leg size</source>
+   <translation>Beingröße</translation>
+  </message>
+  <message>
+   <source>Length</source>
+   <translation>Länge</translation>
+  </message>
+  <message>
+   <source>Length that is wall: seen, or between seen parts</source>
+   <translation>Länge, die Wand ist: gesehen oder zwischen gesehenen Teilen</translation>
+  </message>
+  <message>
+   <source>Lengths, differences, percentages, means and accuracy bands as CSV.</source>
+   <translation>Längen, Unterschiede, Prozente, Mittel und Genauigkeitsklassen als CSV.</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the difference meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die der Unterschied erfüllt</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the residual meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die die Restabweichung erfüllt</translation>
+  </message>
+  <message>
+   <source>Licence</source>
+   <translation>Lizenz</translation>
+  </message>
+  <message>
+   <source>Lintel depth</source>
+   <translation>Sturztiefe</translation>
+  </message>
+  <message>
+   <source>Longest run of the exact solver.</source>
+   <translation>Längste Laufzeit des exakten Lösers.</translation>
+  </message>
+  <message>
+   <source>Look from a corner, from above</source>
+   <translation>Von einer Ecke schräg von oben</translation>
+  </message>
+  <message>
+   <source>Look from there, key {key}</source>
+   <translation>Von dort schauen, Taste {key}</translation>
+  </message>
+  <message>
+   <source>Looks right</source>
+   <translation>Stimmt so</translation>
+  </message>
+  <message>
+   <source>Machine</source>
+   <translation>Programm</translation>
+  </message>
+  <message>
+   <source>Made from</source>
+   <translation>Gemacht aus</translation>
+  </message>
+  <message>
+   <source>Made with</source>
+   <translation>Gemacht mit</translation>
+  </message>
+  <message>
+   <source>Make the selected regions one; the wall between them goes.</source>
+   <translation>Die gewählten Regionen vereinen; die Wand dazwischen fällt weg.</translation>
+  </message>
+  <message>
+   <source>Manhattan frame: gravity and yaw.</source>
+   <translation>Manhattan-Achsensystem: Lot und Drehung.</translation>
+  </message>
+  <message>
+   <source>Maps</source>
+   <translation>Karten</translation>
+  </message>
+  <message>
+   <source>Max askew</source>
+   <translation>Schräganteil höchstens</translation>
+  </message>
+  <message>
+   <source>Max beamless</source>
+   <translation>Breite ohne Unterzug höchstens</translation>
+  </message>
+  <message>
+   <source>Max count</source>
+   <translation>Anzahl höchstens</translation>
+  </message>
+  <message>
+   <source>Max door</source>
+   <translation>Türbreite höchstens</translation>
+  </message>
+  <message>
+   <source>Max mouth</source>
+   <translation>Mündung höchstens</translation>
+  </message>
+  <message>
+   <source>Max opening</source>
+   <translation>Öffnung höchstens</translation>
+  </message>
+  <message>
+   <source>Max passage</source>
+   <translation>Durchgang höchstens</translation>
+  </message>
+  <message>
+   <source>Max range</source>
+   <translation>Entfernung höchstens</translation>
+  </message>
+  <message>
+   <source>Max ratio</source>
+   <translation>Verhältnis höchstens</translation>
+  </message>
+  <message>
+   <source>Max room perimeter</source>
+   <translation>Raumumfang höchstens</translation>
+  </message>
+  <message>
+   <source>Max room turning</source>
+   <translation>Drehabstand von Räumen höchstens</translation>
+  </message>
+  <message>
+   <source>Max slab</source>
+   <translation>Deckenstärke höchstens</translation>
+  </message>
+  <message>
+   <source>Max thickness</source>
+   <translation>Dicke höchstens</translation>
+  </message>
+  <message>
+   <source>Max width</source>
+   <translation>Breite höchstens</translation>
+  </message>
+  <message>
+   <source>Mean of {n}: {error} · {percent} %</source>
+   <translation>Mittel aus {n}: {error} · {percent} %</translation>
+  </message>
+  <message>
+   <source>Measure</source>
+   <translation>Messen</translation>
+  </message>
+  <message>
+   <source>Measure a distance on the plan; then type here what the laser meter said.</source>
+   <translation>Einen Abstand im Plan messen; dann hier eingeben, was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>Measure {0} m</source>
+   <translation>{0} m messen</translation>
+  </message>
+  <message>
+   <source>Merge</source>
+   <translation>Vereinen</translation>
+  </message>
+  <message>
+   <source>Merge regions</source>
+   <translation>Regionen vereinen</translation>
+  </message>
+  <message>
+   <source>Merge {0}</source>
+   <translation>{0} vereinen</translation>
+  </message>
+  <message>
+   <source>Merged by hand</source>
+   <translation>Von Hand vereint</translation>
+  </message>
+  <message>
+   <source>Middle or right drag</source>
+   <translation>Ziehen mit der mittleren oder rechten Taste</translation>
+  </message>
+  <message>
+   <source>Min area</source>
+   <translation>Fläche mindestens</translation>
+  </message>
+  <message>
+   <source>Min component</source>
+   <translation>Fleck mindestens</translation>
+  </message>
+  <message>
+   <source>Min confidence</source>
+   <translation>Sicherheit mindestens</translation>
+  </message>
+  <message>
+   <source>Min height</source>
+   <translation>Höhe mindestens</translation>
+  </message>
+  <message>
+   <source>Min length</source>
+   <translation>Länge mindestens</translation>
+  </message>
+  <message>
+   <source>Min misses</source>
+   <translation>Durchgänge mindestens</translation>
+  </message>
+  <message>
+   <source>Min range</source>
+   <translation>Entfernung mindestens</translation>
+  </message>
+  <message>
+   <source>Min response</source>
+   <translation>Antwort mindestens</translation>
+  </message>
+  <message>
+   <source>Min rest side</source>
+   <translation>Restseite mindestens</translation>
+  </message>
+  <message>
+   <source>Min share</source>
+   <translation>Anteil mindestens</translation>
+  </message>
+  <message>
+   <source>Min side</source>
+   <translation>Seite mindestens</translation>
+  </message>
+  <message>
+   <source>Min space</source>
+   <translation>Raum mindestens</translation>
+  </message>
+  <message>
+   <source>Min support</source>
+   <translation>Stützung mindestens</translation>
+  </message>
+  <message>
+   <source>Min width</source>
+   <translation>Breite mindestens</translation>
+  </message>
+  <message>
+   <source>Mirrored</source>
+   <translation>Gespiegelt</translation>
+  </message>
+  <message>
+   <source>More valid rectangles than this are refused.</source>
+   <translation>Mehr gültige Rechtecke werden abgelehnt.</translation>
+  </message>
+  <message>
+   <source>Mouse</source>
+   <translation>Maus</translation>
+  </message>
+  <message>
+   <source>Mouth opening</source>
+   <translation>Mündungsverengung</translation>
+  </message>
+  <message>
+   <source>Move it; it snaps to evidence</source>
+   <translation>Verschiebt sie; sie rastet an Gemessenem ein</translation>
+  </message>
+  <message>
+   <source>Move wall {0} to {1} m</source>
+   <translation>Wand {0} nach {1} m schieben</translation>
+  </message>
+  <message>
+   <source>Move wall…</source>
+   <translation>Wand verschieben…</translation>
+  </message>
+  <message>
+   <source>Moved by hand</source>
+   <translation>Von Hand verschoben</translation>
+  </message>
+  <message>
+   <source>Name of the region classifier (see `floorcast plugins`).</source>
+   <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
+  </message>
+  <message>
+   <source>Named by hand</source>
+   <translation>Von Hand benannt</translation>
+  </message>
+  <message>
+   <source>Narrower gaps are holes in the data.</source>
+   <translation>Schmalere Lücken sind Löcher in den Daten.</translation>
+  </message>
+  <message>
+   <source>Narrower openings are no doors (paper: 0.8 m).</source>
+   <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No setting is called that.</source>
+   <translation>So heißt keine Einstellung.</translation>
+  </message>
+  <message>
+   <source>Not enough memory for this survey.</source>
+   <translation>Zu wenig Speicher für diese Aufnahme.</translation>
+  </message>
+  <message>
+   <source>Not seen</source>
+   <translation>Nicht gesehen</translation>
+  </message>
+  <message>
+   <source>Note</source>
+   <translation>Notiz</translation>
+  </message>
+  <message>
+   <source>Note on {0}</source>
+   <translation>Notiz zu {0}</translation>
+  </message>
+  <message>
+   <source>Nothing can be clicked by coordinates in the pane {0}.</source>
+   <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing to warn of.</source>
+   <translation>Nichts zu warnen.</translation>
+  </message>
+  <message>
+   <source>Nothing was said by hand of {0}.</source>
+   <translation>Von Hand wurde über {0} nichts gesagt.</translation>
+  </message>
+  <message>
+   <source>Nothing was seen along this wall.</source>
+   <translation>Entlang dieser Wand wurde nichts gesehen.</translation>
+  </message>
+  <message>
+   <source>Observed</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Observed segments</source>
+   <translation>Gesehene Wandstücke</translation>
+  </message>
+  <message>
+   <source>Occupancy</source>
+   <translation>Belegung</translation>
+  </message>
+  <message>
+   <source>Occupancy grid maps: what parts two rooms on a map without heights.</source>
+   <translation>Belegungskarten: was zwei Räume auf einer Karte ohne Höhen trennt.</translation>
+  </message>
+  <message>
+   <source>Occupied</source>
+   <translation>Belegt</translation>
+  </message>
+  <message>
+   <source>Of all regions, to the inside faces of the walls</source>
+   <translation>Aller Regionen, bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>Of its offset</source>
+   <translation>Ihrer Lage</translation>
+  </message>
+  <message>
+   <source>Of the largest floor or ceiling: a smaller one parts no storeys (a gallery).</source>
+   <translation>Des größten Bodens oder der größten Decke: Kleinere trennen keine Geschosse (eine Galerie).</translation>
+  </message>
+  <message>
+   <source>Of the measured length</source>
+   <translation>Der gemessenen Länge</translation>
+  </message>
+  <message>
+   <source>Offset</source>
+   <translation>Lage</translation>
+  </message>
+  <message>
+   <source>Offset tolerance</source>
+   <translation>Lagetoleranz</translation>
+  </message>
+  <message>
+   <source>Only what was seen</source>
+   <translation>Nur was gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans</source>
+   <translation>Einen Ordner mit Scans öffnen</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans.</source>
+   <translation>Einen Ordner mit Scans öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a point cloud, mesh, run, grid map or project.</source>
+   <translation>Punktwolke, Netz, Fahrt, Rasterkarte oder Projekt öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a survey or project</source>
+   <translation>Aufnahme oder Projekt öffnen</translation>
+  </message>
+  <message>
+   <source>Open a survey to see its points here</source>
+   <translation>Eine Aufnahme öffnen, um hier ihre Punkte zu sehen</translation>
+  </message>
+  <message>
+   <source>Open folder…</source>
+   <translation>Ordner öffnen…</translation>
+  </message>
+  <message>
+   <source>Open in Open3D</source>
+   <translation>In Open3D öffnen</translation>
+  </message>
+  <message>
+   <source>Open recent</source>
+   <translation>Zuletzt geöffnet</translation>
+  </message>
+  <message>
+   <source>Open the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme öffnen</translation>
+  </message>
+  <message>
+   <source>Open {0}</source>
+   <translation>{0} öffnen</translation>
+  </message>
+  <message>
+   <source>Open3D's viewer needs a display with OpenGL, and there is none here; the 3D pane shows the same.</source>
+   <translation>Open3Ds Anzeige braucht einen Bildschirm mit OpenGL, und hier ist keiner; die 3D-Ansicht zeigt dasselbe.</translation>
+  </message>
+  <message>
+   <source>Opening {name}</source>
+   <translation>Öffnung {name}</translation>
+  </message>
+  <message>
+   <source>Open…</source>
+   <translation>Öffnen…</translation>
+  </message>
+  <message>
+   <source>Orbit</source>
+   <translation>Umkreisen</translation>
+  </message>
+  <message>
+   <source>Other face</source>
+   <translation>Andere Seite</translation>
+  </message>
+  <message>
+   <source>Own axes</source>
+   <translation>Eigene Achsen</translation>
+  </message>
+  <message>
+   <source>Own colour</source>
+   <translation>Eigene Farbe</translation>
+  </message>
+  <message>
+   <source>Own size</source>
+   <translation>Eigene Größe</translation>
+  </message>
+  <message>
+   <source>Package</source>
+   <translation>Paket</translation>
+  </message>
+  <message>
+   <source>Page</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Pan</source>
+   <translation>Verschieben</translation>
+  </message>
+  <message>
+   <source>Pane</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Panes</source>
+   <translation>Ansichten</translation>
+  </message>
+  <message>
+   <source>Parts</source>
+   <translation>Teile</translation>
+  </message>
+  <message>
+   <source>Parts narrower than this are not part of a region.</source>
+   <translation>Schmalere Teile gehören zu keiner Region.</translation>
+  </message>
+  <message>
+   <source>Passage opening</source>
+   <translation>Durchgangsverengung</translation>
+  </message>
+  <message>
+   <source>Passage wall</source>
+   <translation>Wandanteil an Durchgängen</translation>
+  </message>
+  <message>
+   <source>Patches of one segment differ less in their offset.</source>
+   <translation>Flecken eines Wandstücks unterscheiden sich weniger in ihrer Lage.</translation>
+  </message>
+  <message>
+   <source>Patches of one surface nearer than this along it are one segment.</source>
+   <translation>Flecken einer Fläche, die näher beieinander liegen, sind ein Wandstück.</translation>
+  </message>
+  <message>
+   <source>Perimeter</source>
+   <translation>Umfang</translation>
+  </message>
+  <message>
+   <source>Picture of a pane</source>
+   <translation>Bild einer Ansicht</translation>
+  </message>
+  <message>
+   <source>Picture of a pane…</source>
+   <translation>Bild einer Ansicht…</translation>
+  </message>
+  <message>
+   <source>Pictures are written as .png, .jpg or .webp (asked: {0}).</source>
+   <translation>Bilder werden als .png, .jpg oder .webp geschrieben (verlangt: {0}).</translation>
+  </message>
+  <message>
+   <source>Plan</source>
+   <translation>Plan</translation>
+  </message>
+  <message>
+   <source>Plan again</source>
+   <translation>Neu planen</translation>
+  </message>
+  <message>
+   <source>Plan less laser meter</source>
+   <translation>Plan minus Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Planarity</source>
+   <translation>Ebenheit</translation>
+  </message>
+  <message>
+   <source>Plane</source>
+   <translation>Ebene</translation>
+  </message>
+  <message>
+   <source>Plane {id} faces {facing}</source>
+   <translation>Ebene {id} weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Planes</source>
+   <translation>Ebenen</translation>
+  </message>
+  <message>
+   <source>Planes are known once there is a plan: points by height</source>
+   <translation>Ebenen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Planes of less observed surface are not paired.</source>
+   <translation>Ebenen mit weniger gesehener Fläche werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Planes that face {facing}</source>
+   <translation>Ebenen, die nach {facing} weisen</translation>
+  </message>
+  <message>
+   <source>Planning</source>
+   <translation>Planen</translation>
+  </message>
+  <message>
+   <source>Play the run</source>
+   <translation>Die Fahrt abspielen</translation>
+  </message>
+  <message>
+   <source>Point clouds, meshes, runs of a robot and occupancy maps</source>
+   <translation>Punktwolken, Netze, Fahrten eines Roboters und Belegungskarten</translation>
+  </message>
+  <message>
+   <source>Points</source>
+   <translation>Punkte</translation>
+  </message>
+  <message>
+   <source>Points above are left out of the histogram (paper: 2 m).</source>
+   <translation>Punkte darüber fehlen im Histogramm (Artikel: 2 m).</translation>
+  </message>
+  <message>
+   <source>Points above this height are not drawn in 3D</source>
+   <translation>Punkte über dieser Höhe werden in 3D nicht gezeichnet</translation>
+  </message>
+  <message>
+   <source>Points are not coloured by {0}; choose: {1}.</source>
+   <translation>Punkte werden nicht nach {0} gefärbt; zur Wahl stehen: {1}.</translation>
+  </message>
+  <message>
+   <source>Points by facing</source>
+   <translation>Punkte nach Richtung</translation>
+  </message>
+  <message>
+   <source>Points by height</source>
+   <translation>Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Points by intensity</source>
+   <translation>Punkte nach Intensität</translation>
+  </message>
+  <message>
+   <source>Points by its own colour</source>
+   <translation>Punkte in eigener Farbe</translation>
+  </message>
+  <message>
+   <source>Points by plane</source>
+   <translation>Punkte nach Ebene</translation>
+  </message>
+  <message>
+   <source>Points by {0}</source>
+   <translation>Punkte nach {0}</translation>
+  </message>
+  <message>
+   <source>Points farther from their sensor are dropped.</source>
+   <translation>Punkte, die weiter vom Sensor entfernt sind, entfallen.</translation>
+  </message>
+  <message>
+   <source>Points nearer to their sensor are dropped.</source>
+   <translation>Punkte, die näher am Sensor liegen, entfallen.</translation>
+  </message>
+  <message>
+   <source>Predicted</source>
+   <translation>Vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Presets</source>
+   <translation>Vorgaben</translation>
+  </message>
+  <message>
+   <source>Quit</source>
+   <translation>Beenden</translation>
+  </message>
+  <message>
+   <source>Rays crossed the wall here</source>
+   <translation>Strahlen gingen hier durch die Wand</translation>
+  </message>
+  <message>
+   <source>Rays through a voxel that make it free.</source>
+   <translation>Strahlen durch ein Voxel, die es frei machen.</translation>
+  </message>
+  <message>
+   <source>Read the survey once more and plan it from nothing.</source>
+   <translation>Die Aufnahme noch einmal lesen und von Grund auf planen.</translation>
+  </message>
+  <message>
+   <source>Reading points</source>
+   <translation>Punkte lesen</translation>
+  </message>
+  <message>
+   <source>Reading {0}</source>
+   <translation>{0} lesen</translation>
+  </message>
+  <message>
+   <source>Reading {count} points so far</source>
+   <translation>Bisher {count} Punkte gelesen</translation>
+  </message>
+  <message>
+   <source>Recent</source>
+   <translation>Zuletzt</translation>
+  </message>
+  <message>
+   <source>Recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>Recover</source>
+   <translation>Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>Rectangles</source>
+   <translation>Rechtecke</translation>
+  </message>
+  <message>
+   <source>Rectangles of more total cells a free cell are pruned; what only they cover is reported.</source>
+   <translation>Rechtecke mit mehr Zellen je freier Zelle entfallen; was nur sie überdecken, wird gemeldet.</translation>
+  </message>
+  <message>
+   <source>Redo</source>
+   <translation>Wiederholen</translation>
+  </message>
+  <message>
+   <source>Region {name}</source>
+   <translation>Region {name}</translation>
+  </message>
+  <message>
+   <source>Regions</source>
+   <translation>Regionen</translation>
+  </message>
+  <message>
+   <source>Regions of more total cells a free cell are dropped (paper: 1000).</source>
+   <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
+  </message>
+  <message>
+   <source>Regions, doors, planes</source>
+   <translation>Regionen, Türen, Ebenen</translation>
+  </message>
+  <message>
+   <source>Regions: connected unions of chosen rectangles.</source>
+   <translation>Regionen: zusammenhängende Vereinigungen gewählter Rechtecke.</translation>
+  </message>
+  <message>
+   <source>Reject door</source>
+   <translation>Tür verwerfen</translation>
+  </message>
+  <message>
+   <source>Reject {0}</source>
+   <translation>{0} verwerfen</translation>
+  </message>
+  <message>
+   <source>Relabel region</source>
+   <translation>Region bezeichnen</translation>
+  </message>
+  <message>
+   <source>Relabel region…</source>
+   <translation>Region bezeichnen…</translation>
+  </message>
+  <message>
+   <source>Release</source>
+   <translation>Freigeben</translation>
+  </message>
+  <message>
+   <source>Release {0}</source>
+   <translation>{0} freigeben</translation>
+  </message>
+  <message>
+   <source>Remove the measurement</source>
+   <translation>Messung entfernen</translation>
+  </message>
+  <message>
+   <source>Remove {0}</source>
+   <translation>{0} entfernen</translation>
+  </message>
+  <message>
+   <source>Rename region</source>
+   <translation>Region umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region {0} to {1}</source>
+   <translation>Region {0} in {1} umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region…</source>
+   <translation>Region umbenennen…</translation>
+  </message>
+  <message>
+   <source>Replay the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Replaying the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Reset all settings</source>
+   <translation>Alle Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Reset settings</source>
+   <translation>Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Residual</source>
+   <translation>Restabweichung</translation>
+  </message>
+  <message>
+   <source>Resize door…</source>
+   <translation>Türbreite ändern…</translation>
+  </message>
+  <message>
+   <source>Resize it</source>
+   <translation>Ändert ihre Breite</translation>
+  </message>
+  <message>
+   <source>Resized by hand</source>
+   <translation>Breite von Hand geändert</translation>
+  </message>
+  <message>
+   <source>Right click</source>
+   <translation>Rechtsklick</translation>
+  </message>
+  <message>
+   <source>Risk</source>
+   <translation>Risiko</translation>
+  </message>
+  <message>
+   <source>Room or corridor, by perimeter and turning distance</source>
+   <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room, corridor or any other word</source>
+   <translation>Room, corridor oder ein anderes Wort</translation>
+  </message>
+  <message>
+   <source>Room, corridor, or a word of your own.</source>
+   <translation>Room, corridor oder ein eigenes Wort.</translation>
+  </message>
+  <message>
+   <source>Rooms and corridors.</source>
+   <translation>Räume und Flure.</translation>
+  </message>
+  <message>
+   <source>Run</source>
+   <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>Save</source>
+   <translation>Speichern</translation>
+  </message>
+  <message>
+   <source>Save as…</source>
+   <translation>Speichern unter…</translation>
+  </message>
+  <message>
+   <source>Save the picture</source>
+   <translation>Das Bild speichern</translation>
+  </message>
+  <message>
+   <source>Save the project</source>
+   <translation>Das Projekt speichern</translation>
+  </message>
+  <message>
+   <source>Save the project under another name.</source>
+   <translation>Das Projekt unter anderem Namen speichern.</translation>
+  </message>
+  <message>
+   <source>Save the project: survey by reference, settings, corrections, checks, view.</source>
+   <translation>Das Projekt speichern: Verweis auf die Aufnahme, Einstellungen, Korrekturen, Messungen, Ansicht.</translation>
+  </message>
+  <message>
+   <source>Save the session as a script</source>
+   <translation>Die Sitzung als Skript speichern</translation>
+  </message>
+  <message>
+   <source>Save the session as a script…</source>
+   <translation>Sitzung als Skript speichern…</translation>
+  </message>
+  <message>
+   <source>Saved {0}.</source>
+   <translation>{0} gespeichert.</translation>
+  </message>
+  <message>
+   <source>Save…</source>
+   <translation>Speichern…</translation>
+  </message>
+  <message>
+   <source>Say where the survey of this project lies now.</source>
+   <translation>Sagen, wo die Aufnahme dieses Projekts jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>Screen</source>
+   <translation>Bildschirm</translation>
+  </message>
+  <message>
+   <source>Search settings</source>
+   <translation>Einstellungen durchsuchen</translation>
+  </message>
+  <message>
+   <source>Section box</source>
+   <translation>Schnittquader</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan every 20 s of run time.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: alle 20 s der Fahrt ein Plan.</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan for every 20 s of the run.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: ein Plan für je 20 s der Fahrt.</translation>
+  </message>
+  <message>
+   <source>Seen</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Segment</source>
+   <translation>Wandstück</translation>
+  </message>
+  <message>
+   <source>Segment {name}</source>
+   <translation>Wandstück {name}</translation>
+  </message>
+  <message>
+   <source>Segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Segments of less observed surface are dropped.</source>
+   <translation>Wandstücke mit weniger gesehener Fläche entfallen.</translation>
+  </message>
+  <message>
+   <source>Select</source>
+   <translation>Wählen</translation>
+  </message>
+  <message>
+   <source>Select a measurement first; then it can be removed.</source>
+   <translation>Zuerst eine Messung wählen; dann lässt sie sich entfernen.</translation>
+  </message>
+  <message>
+   <source>Select a wall or a door.</source>
+   <translation>Eine Wand oder eine Tür wählen.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a check first; regions are merged, not deleted.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Messung wählen; Regionen werden vereint, nicht gelöscht.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a region first.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Region wählen.</translation>
+  </message>
+  <message>
+   <source>Select by name</source>
+   <translation>Nach Namen wählen</translation>
+  </message>
+  <message>
+   <source>Select nothing</source>
+   <translation>Nichts wählen</translation>
+  </message>
+  <message>
+   <source>Select something first; then it can be brought into view.</source>
+   <translation>Zuerst etwas wählen; dann lässt es sich ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Select {0} {1}{2} first.</source>
+   <translation>Zuerst {0} {1}{2} wählen.</translation>
+  </message>
+  <message>
+   <source>Select; with Ctrl add to the selection</source>
+   <translation>Wählt; mit Strg kommt es zur Auswahl hinzu</translation>
+  </message>
+  <message>
+   <source>Selection</source>
+   <translation>Auswahl</translation>
+  </message>
+  <message>
+   <source>Set a measured length…</source>
+   <translation>Gemessene Länge setzen…</translation>
+  </message>
+  <message>
+   <source>Set cover of the free space, then connected unions</source>
+   <translation>Überdeckung des Freiraums, dann zusammenhängende Vereinigungen</translation>
+  </message>
+  <message>
+   <source>Set the view…</source>
+   <translation>Ansicht einstellen…</translation>
+  </message>
+  <message>
+   <source>Set {0} to {1}</source>
+   <translation>{0} auf {1} setzen</translation>
+  </message>
+  <message>
+   <source>Setting: {name}</source>
+   <translation>Einstellung: {name}</translation>
+  </message>
+  <message>
+   <source>Setting: {stage}: {name}</source>
+   <translation>Einstellung: {stage}: {name}</translation>
+  </message>
+  <message>
+   <source>Settings</source>
+   <translation>Einstellungen</translation>
+  </message>
+  <message>
+   <source>Settings that belong together, with the reason why</source>
+   <translation>Einstellungen, die zusammengehören, mit ihrem Grund</translation>
+  </message>
+  <message>
+   <source>Share of a patch that must lie under seen ceiling or over seen floor.</source>
+   <translation>Anteil eines Flecks, der unter gesehener Decke oder über gesehenem Boden liegen muss.</translation>
+  </message>
+  <message>
+   <source>Share of hits among hits and misses from which a voxel is occupied.</source>
+   <translation>Anteil der Treffer an Treffern und Durchgängen, ab dem ein Voxel belegt ist.</translation>
+  </message>
+  <message>
+   <source>Share of its floor seen free</source>
+   <translation>Anteil ihres Bodens, der frei gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Share of the floor that was seen free; the rest is predicted</source>
+   <translation>Anteil des Bodens, der frei gesehen wurde; der Rest ist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Share of the wall along the two axes</source>
+   <translation>Anteil der Wände längs der beiden Achsen</translation>
+  </message>
+  <message>
+   <source>Share of walls at other angles from which a space gets the map's outline.</source>
+   <translation>Anteil der Wände in anderen Winkeln, ab dem ein Raum den Umriss der Karte bekommt.</translation>
+  </message>
+  <message>
+   <source>Shortcuts</source>
+   <translation>Tastenkürzel</translation>
+  </message>
+  <message>
+   <source>Shortcuts and gestures</source>
+   <translation>Tastenkürzel und Gesten</translation>
+  </message>
+  <message>
+   <source>Shorter segments are dropped.</source>
+   <translation>Kürzere Wandstücke entfallen.</translation>
+  </message>
+  <message>
+   <source>Shorter sides are pruned (paper: 1 m).</source>
+   <translation>Kürzere Seiten entfallen (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Show</source>
+   <translation>Zeigen</translation>
+  </message>
+  <message>
+   <source>Show a pane…</source>
+   <translation>Ansicht zeigen…</translation>
+  </message>
+  <message>
+   <source>Show it in the panes</source>
+   <translation>In den Ansichten zeigen</translation>
+  </message>
+  <message>
+   <source>Show lengths and areas in feet and inches.</source>
+   <translation>Längen und Flächen in Fuß und Zoll zeigen.</translation>
+  </message>
+  <message>
+   <source>Show or hide</source>
+   <translation>Zeigen oder ausblenden</translation>
+  </message>
+  <message>
+   <source>Show or hide: dimensions.</source>
+   <translation>Zeigen oder ausblenden: Maße.</translation>
+  </message>
+  <message>
+   <source>Show or hide: doors.</source>
+   <translation>Zeigen oder ausblenden: Türen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: free space.</source>
+   <translation>Zeigen oder ausblenden: Freiraum.</translation>
+  </message>
+  <message>
+   <source>Show or hide: planes.</source>
+   <translation>Zeigen oder ausblenden: Ebenen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: points.</source>
+   <translation>Zeigen oder ausblenden: Punkte.</translation>
+  </message>
+  <message>
+   <source>Show or hide: regions.</source>
+   <translation>Zeigen oder ausblenden: Regionen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: trajectory.</source>
+   <translation>Zeigen oder ausblenden: Weg.</translation>
+  </message>
+  <message>
+   <source>Show or hide: {0}.</source>
+   <translation>Zeigen oder ausblenden: {0}.</translation>
+  </message>
+  <message>
+   <source>Show the evidence on the other face of the wall</source>
+   <translation>Die Belege auf der anderen Seite der Wand zeigen</translation>
+  </message>
+  <message>
+   <source>Side</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Side of a voxel of the occupancy map (paper: 0.1 m).</source>
+   <translation>Seite eines Voxels der Belegungskarte (Artikel: 0,1 m).</translation>
+  </message>
+  <message>
+   <source>Side of the window in which the direction of a surface is fitted.</source>
+   <translation>Seite des Fensters, in dem die Richtung einer Fläche bestimmt wird.</translation>
+  </message>
+  <message>
+   <source>Sides along which less than half was seen; they are dashed</source>
+   <translation>Seiten, von denen weniger als die Hälfte gesehen wurde; sie sind gestrichelt</translation>
+  </message>
+  <message>
+   <source>Size</source>
+   <translation>Größe</translation>
+  </message>
+  <message>
+   <source>Slice height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Sliver</source>
+   <translation>Splitter</translation>
+  </message>
+  <message>
+   <source>Smaller enclosed spaces are dropped.</source>
+   <translation>Kleinere umschlossene Räume entfallen.</translation>
+  </message>
+  <message>
+   <source>Smaller isolated objects are furniture, whatever their shape.</source>
+   <translation>Kleinere freistehende Objekte sind Möbel, welche Form sie auch haben.</translation>
+  </message>
+  <message>
+   <source>Smaller patches of free cells do not drive the cover.</source>
+   <translation>Kleinere Flecken freier Zellen treiben die Überdeckung nicht an.</translation>
+  </message>
+  <message>
+   <source>Smaller regions are dropped.</source>
+   <translation>Kleinere Regionen entfallen.</translation>
+  </message>
+  <message>
+   <source>Smallest response of the matched filter, 1 being a clean aperture.</source>
+   <translation>Kleinste Antwort des angepassten Filters; 1 ist eine saubere Öffnung.</translation>
+  </message>
+  <message>
+   <source>Smoothing</source>
+   <translation>Glättung</translation>
+  </message>
+  <message>
+   <source>Solver</source>
+   <translation>Löser</translation>
+  </message>
+  <message>
+   <source>Speak English from the next start on.</source>
+   <translation>Ab dem nächsten Start Englisch sprechen.</translation>
+  </message>
+  <message>
+   <source>Speak German from the next start on.</source>
+   <translation>Ab dem nächsten Start Deutsch sprechen.</translation>
+  </message>
+  <message>
+   <source>Split</source>
+   <translation>Teilen</translation>
+  </message>
+  <message>
+   <source>Split by hand</source>
+   <translation>Von Hand geteilt</translation>
+  </message>
+  <message>
+   <source>Split region</source>
+   <translation>Region teilen</translation>
+  </message>
+  <message>
+   <source>Stage</source>
+   <translation>Schritt</translation>
+  </message>
+  <message>
+   <source>Standard deviation of the Gaussian whose derivative gives the gradient.</source>
+   <translation>Standardabweichung der Gaußkurve, deren Ableitung den Gradienten gibt.</translation>
+  </message>
+  <message>
+   <source>Standard error</source>
+   <translation>Standardfehler</translation>
+  </message>
+  <message>
+   <source>Step of the search for the sharpest walls.</source>
+   <translation>Schrittweite der Suche nach den schärfsten Wänden.</translation>
+  </message>
+  <message>
+   <source>Stop what runs; the last plan stays.</source>
+   <translation>Anhalten, was läuft; der letzte Plan bleibt.</translation>
+  </message>
+  <message>
+   <source>Storeys</source>
+   <translation>Geschosse</translation>
+  </message>
+  <message>
+   <source>Storeys of one survey, from its floors and ceilings.</source>
+   <translation>Geschosse einer Aufnahme, aus ihren Böden und Decken.</translation>
+  </message>
+  <message>
+   <source>Support</source>
+   <translation>Stützung</translation>
+  </message>
+  <message>
+   <source>Surface</source>
+   <translation>Oberfläche</translation>
+  </message>
+  <message>
+   <source>Surface that was observed</source>
+   <translation>Fläche, die gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Surfaces at most this deep behind a wall of the same facing are its recesses, not paired.</source>
+   <translation>Flächen, die höchstens so tief hinter einer Wand gleicher Richtung liegen, sind deren Nischen und werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Surfaces this near to a plane are the same wall: its other face, frames, leaves.</source>
+   <translation>Flächen, die einer Ebene so nahe sind, sind dieselbe Wand: ihre andere Seite, Rahmen, Türblätter.</translation>
+  </message>
+  <message>
+   <source>Surveys and projects</source>
+   <translation>Aufnahmen und Projekte</translation>
+  </message>
+  <message>
+   <source>Switch off {0}</source>
+   <translation>{0} ausschalten</translation>
+  </message>
+  <message>
+   <source>Switch the selected wall off, reject the selected door, remove the selected check.</source>
+   <translation>Die gewählte Wand ausschalten, die gewählte Tür verwerfen, die gewählte Messung entfernen.</translation>
+  </message>
+  <message>
+   <source>Switch wall off</source>
+   <translation>Wand ausschalten</translation>
+  </message>
+  <message>
+   <source>Switched off by hand</source>
+   <translation>Von Hand ausgeschaltet</translation>
+  </message>
+  <message>
+   <source>Take back all corrections</source>
+   <translation>Alle Korrekturen zurücknehmen</translation>
+  </message>
+  <message>
+   <source>Take back all that was said of it by hand: the machine decides again.</source>
+   <translation>Alles zurücknehmen, was von Hand darüber gesagt wurde: Das Programm entscheidet wieder.</translation>
+  </message>
+  <message>
+   <source>Take the last step back; there is no limit.</source>
+   <translation>Den letzten Schritt zurücknehmen; ohne Grenze.</translation>
+  </message>
+  <message>
+   <source>Take the selected row out of the ground-truth table.</source>
+   <translation>Die gewählte Zeile aus der Kontrolltabelle nehmen.</translation>
+  </message>
+  <message>
+   <source>Taken for</source>
+   <translation>Gehalten für</translation>
+  </message>
+  <message>
+   <source>The best cover by integer programming instead of the greedy one; slower, rarely different.</source>
+   <translation>Die beste Überdeckung durch ganzzahlige Optimierung statt der gierigen; langsamer, selten anders.</translation>
+  </message>
+  <message>
+   <source>The corrections made since the last save would be lost.</source>
+   <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
+  </message>
+  <message>
+   <source>The fewest planes that explain all segments</source>
+   <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
+  </message>
+  <message>
+   <source>The file's axes are left-handed; its plan would come out mirrored otherwise.</source>
+   <translation>Die Achsen der Datei sind linkshändig; ihr Plan erschiene sonst gespiegelt.</translation>
+  </message>
+  <message>
+   <source>The file's up axis.</source>
+   <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan as a picture into the clipboard.</source>
+   <translation>Den Grundriss als Bild in die Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The floor plan large.</source>
+   <translation>Der Grundriss groß.</translation>
+  </message>
+  <message>
+   <source>The height at which most free space was seen</source>
+   <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The look has no such field ({0}).</source>
+   <translation>Die Ansicht hat kein solches Feld ({0}).</translation>
+  </message>
+  <message>
+   <source>The machine had said: {said}</source>
+   <translation>Das Programm hatte gesagt: {said}</translation>
+  </message>
+  <message>
+   <source>The minimum set of layout planes.</source>
+   <translation>Die kleinste Menge von Wandebenen.</translation>
+  </message>
+  <message>
+   <source>The numbers that the paper states, to compare with its figures. Doors of 0.8 to 1.2 m only.</source>
+   <translation>Die Zahlen, die der Artikel nennt, zum Vergleich mit seinen Bildern. Nur Türen von 0,8 bis 1,2 m.</translation>
+  </message>
+  <message>
+   <source>The package brings no text of its licence ({licence}).</source>
+   <translation>Das Paket bringt keinen Text seiner Lizenz mit ({licence}).</translation>
+  </message>
+  <message>
+   <source>The picture is in the clipboard.</source>
+   <translation>Das Bild ist in der Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The plan as the machine made it; undo brings your corrections back.</source>
+   <translation>Der Plan, wie das Programm ihn gemacht hat; Rückgängig bringt die Korrekturen wieder.</translation>
+  </message>
+  <message>
+   <source>The ratio of widths for a passage.</source>
+   <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The regions on its two sides</source>
+   <translation>Die Regionen auf ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>The same for what is left uncovered and closed by speculated planes.</source>
+   <translation>Dasselbe für das, was unbedeckt bleibt und durch vermutete Ebenen geschlossen wird.</translation>
+  </message>
+  <message>
+   <source>The same scene in Open3D's own viewer.</source>
+   <translation>Dieselbe Szene in Open3Ds eigener Anzeige.</translation>
+  </message>
+  <message>
+   <source>The script {0} does not exist.</source>
+   <translation>Das Skript {0} gibt es nicht.</translation>
+  </message>
+  <message>
+   <source>The sensor looked over it: there is air above</source>
+   <translation>Der Sensor sah darüber hinweg: Oben ist Luft</translation>
+  </message>
+  <message>
+   <source>The sensor went through it</source>
+   <translation>Der Sensor ging hindurch</translation>
+  </message>
+  <message>
+   <source>The share of wall for a passage.</source>
+   <translation>Der Wandanteil für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The slice of the voxel map that gives the universe F_h.</source>
+   <translation>Der Schnitt der Voxelkarte, der die Grundmenge F_h gibt.</translation>
+  </message>
+  <message>
+   <source>The timeline large.</source>
+   <translation>Die Zeitleiste groß.</translation>
+  </message>
+  <message>
+   <source>The two points of a measurement are the same; give two different ones.</source>
+   <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>There is a region {0} already.</source>
+   <translation>Es gibt schon eine Region {0}.</translation>
+  </message>
+  <message>
+   <source>There is no action {0}; the actions are: {1}.</source>
+   <translation>Es gibt keinen Befehl {0}; die Befehle sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no dialog {0}.</source>
+   <translation>Es gibt keinen Dialog {0}.</translation>
+  </message>
+  <message>
+   <source>There is no display to open a window on; 'floorcast gui --script FILE' needs none.</source>
+   <translation>Es gibt keinen Bildschirm für ein Fenster; „floorcast gui --script DATEI“ braucht keinen.</translation>
+  </message>
+  <message>
+   <source>There is no language {0}; there are: {1}.</source>
+   <translation>Es gibt keine Sprache {0}; es gibt: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no layer {0}; the layers are: {1}.</source>
+   <translation>Es gibt keinen Layer {0}; die Layer sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no measurement {0}; the measurements are: {1}.</source>
+   <translation>Es gibt keine Messung {0}; die Messungen sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no pane {0}; the panes are: {1}.</source>
+   <translation>Es gibt keine Ansicht {0}; die Ansichten sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no plan to show in Open3D yet; open a survey first.</source>
+   <translation>Es gibt noch keinen Plan für Open3D; bitte zuerst eine Aufnahme öffnen.</translation>
+  </message>
+  <message>
+   <source>There is no plan yet.</source>
+   <translation>Es gibt noch keinen Plan.</translation>
+  </message>
+  <message>
+   <source>There is no setting {0}; 'floorcast settings' lists them.</source>
+   <translation>Es gibt keine Einstellung {0}; „floorcast settings“ nennt alle.</translation>
+  </message>
+  <message>
+   <source>There is no step {0}: the history has the steps 0 to {1}.</source>
+   <translation>Es gibt keinen Schritt {0}: Der Verlauf hat die Schritte 0 bis {1}.</translation>
+  </message>
+  <message>
+   <source>There is no survey to look for.</source>
+   <translation>Es gibt keine Aufnahme zu suchen.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1} in this plan.</source>
+   <translation>Es gibt kein {0} {1} in diesem Plan.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1}.</source>
+   <translation>Es gibt kein {0} {1}.</translation>
+  </message>
+  <message>
+   <source>Thickness between its two faces</source>
+   <translation>Dicke zwischen ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>This survey does not say when its points were measured.</source>
+   <translation>Diese Aufnahme sagt nicht, wann ihre Punkte gemessen wurden.</translation>
+  </message>
+  <message>
+   <source>This survey holds no colour: points by height</source>
+   <translation>Diese Aufnahme hat keine Farben: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>This survey holds no intensity: points by height</source>
+   <translation>Diese Aufnahme hat keine Intensität: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Time</source>
+   <translation>Zeit</translation>
+  </message>
+  <message>
+   <source>Time limit</source>
+   <translation>Zeitgrenze</translation>
+  </message>
+  <message>
+   <source>Timeline</source>
+   <translation>Zeitleiste</translation>
+  </message>
+  <message>
+   <source>To</source>
+   <translation>Bis</translation>
+  </message>
+  <message>
+   <source>To the inside faces of the walls</source>
+   <translation>Bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>To the unit square: a corridor where it is over the limit</source>
+   <translation>Zum Einheitsquadrat: ein Flur, wo er über der Grenze liegt</translation>
+  </message>
+  <message>
+   <source>Tolerance</source>
+   <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>Toolbar</source>
+   <translation>Werkzeugleiste</translation>
+  </message>
+  <message>
+   <source>Tools</source>
+   <translation>Werkzeuge</translation>
+  </message>
+  <message>
+   <source>Top</source>
+   <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Trajectory</source>
+   <translation>Weg</translation>
+  </message>
+  <message>
+   <source>Tripod scanner, precise</source>
+   <translation>Standscanner, genau</translation>
+  </message>
+  <message>
+   <source>Try Floorcast on a survey that comes with it.</source>
+   <translation>Floorcast an einer mitgelieferten Aufnahme ausprobieren.</translation>
+  </message>
+  <message>
+   <source>Try the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme</translation>
+  </message>
+  <message>
+   <source>Turn of the walls against the file's axes</source>
+   <translation>Drehung der Wände gegen die Achsen der Datei</translation>
+  </message>
+  <message>
+   <source>Turning</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance to the unit square: how little it is like a room</source>
+   <translation>Drehabstand zum Einheitsquadrat: wie wenig sie einem Raum gleicht</translation>
+  </message>
+  <message>
+   <source>Two clicks across a region cut it in two.</source>
+   <translation>Zwei Klicks quer durch eine Region teilen sie.</translation>
+  </message>
+  <message>
+   <source>Two clicks draw a wall with two faces.</source>
+   <translation>Zwei Klicks zeichnen eine Wand mit zwei Seiten.</translation>
+  </message>
+  <message>
+   <source>Two clicks measure a distance, from wall to wall where both are walls; A measures an area.</source>
+   <translation>Zwei Klicks messen einen Abstand, von Wand zu Wand, wo beides Wände sind; A misst eine Fläche.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall add a door; drag the ends of the selected one.</source>
+   <translation>Zwei Klicks auf eine Wand fügen eine Tür hinzu; die Enden der gewählten lassen sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall, one at each jamb.</source>
+   <translation>Zwei Klicks auf eine Wand, einer an jeder Laibung.</translation>
+  </message>
+  <message>
+   <source>Two clicks: the region between them is cut from side to side.</source>
+   <translation>Zwei Klicks: Die Region dazwischen wird von Seite zu Seite geteilt.</translation>
+  </message>
+  <message>
+   <source>Two faces farther apart than this are not one wall.</source>
+   <translation>Zwei Seiten, die weiter auseinander liegen, sind nicht eine Wand.</translation>
+  </message>
+  <message>
+   <source>Type a command or a setting</source>
+   <translation>Befehl oder Einstellung eingeben</translation>
+  </message>
+  <message>
+   <source>Type some letters of a command or a setting, press Enter.</source>
+   <translation>Einige Buchstaben eines Befehls oder einer Einstellung eingeben, dann Enter.</translation>
+  </message>
+  <message>
+   <source>Type the width of the opening; or drag its ends in a plan.</source>
+   <translation>Die Breite der Öffnung eingeben; oder ihre Enden im Plan ziehen.</translation>
+  </message>
+  <message>
+   <source>Type where it lies; or drag it in a plan, where it snaps to what was seen.</source>
+   <translation>Eingeben, wo sie liegt; oder im Plan ziehen, wo sie an Gesehenem einrastet.</translation>
+  </message>
+  <message>
+   <source>Undo</source>
+   <translation>Rückgängig</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>Einheit</translation>
+  </message>
+  <message>
+   <source>Unit of the file's coordinates; us-ft is the US survey foot.</source>
+   <translation>Einheit der Koordinaten der Datei; us-ft ist der US-Vermessungsfuß.</translation>
+  </message>
+  <message>
+   <source>Unseen stretches between two seen parts of one wall are wall up to this length.</source>
+   <translation>Ungesehene Stücke zwischen zwei gesehenen Teilen einer Wand sind bis zu dieser Länge Wand.</translation>
+  </message>
+  <message>
+   <source>Up</source>
+   <translation>Hochachse</translation>
+  </message>
+  <message>
+   <source>Use</source>
+   <translation>Nehmen</translation>
+  </message>
+  <message>
+   <source>Use a preset…</source>
+   <translation>Vorgabe nehmen…</translation>
+  </message>
+  <message>
+   <source>Use {0}</source>
+   <translation>{0} nehmen</translation>
+  </message>
+  <message>
+   <source>Version</source>
+   <translation>Version</translation>
+  </message>
+  <message>
+   <source>Version and licences.</source>
+   <translation>Version und Lizenzen.</translation>
+  </message>
+  <message>
+   <source>Version {version} · Apache License 2.0</source>
+   <translation>Version {version} · Apache-Lizenz 2.0</translation>
+  </message>
+  <message>
+   <source>View</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Voxel map and surfels.</source>
+   <translation>Voxelkarte und Surfel.</translation>
+  </message>
+  <message>
+   <source>Voxels</source>
+   <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>Wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>Wall depth</source>
+   <translation>Wandtiefe</translation>
+  </message>
+  <message>
+   <source>Wall support</source>
+   <translation>Wandstützung</translation>
+  </message>
+  <message>
+   <source>Wall was seen above it</source>
+   <translation>Darüber wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on both sides of it</source>
+   <translation>Auf beiden Seiten wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on one side of it, the other is a corner</source>
+   <translation>Auf einer Seite wurde Wand gesehen, die andere ist eine Ecke</translation>
+  </message>
+  <message>
+   <source>Wall {name}, faces {facing}</source>
+   <translation>Wand {name}, weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Walls and doors this near to a side do not lie in the interior.</source>
+   <translation>Wände und Türen, die einer Seite so nahe sind, liegen nicht im Inneren.</translation>
+  </message>
+  <message>
+   <source>Walls of a hand-held depth camera scatter by centimetres and bend; wider tolerances keep one wall one plane.</source>
+   <translation>Wände aus einer handgeführten Tiefenkamera streuen um Zentimeter und biegen sich; weitere Toleranzen halten eine Wand in einer Ebene.</translation>
+  </message>
+  <message>
+   <source>Walls of more observed surface than this never lie inside a region.</source>
+   <translation>Wände mit mehr gesehener Fläche liegen nie im Inneren einer Region.</translation>
+  </message>
+  <message>
+   <source>Warnings</source>
+   <translation>Warnungen</translation>
+  </message>
+  <message>
+   <source>Warnings ({n})</source>
+   <translation>Warnungen ({n})</translation>
+  </message>
+  <message>
+   <source>Weighted set cover of the free space.</source>
+   <translation>Gewichtete Überdeckung des Freiraums.</translation>
+  </message>
+  <message>
+   <source>What can be done with it</source>
+   <translation>Was sich damit tun lässt</translation>
+  </message>
+  <message>
+   <source>What it is</source>
+   <translation>Was es ist</translation>
+  </message>
+  <message>
+   <source>What it is made of</source>
+   <translation>Woraus sie besteht</translation>
+  </message>
+  <message>
+   <source>What the laser meter said.</source>
+   <translation>Was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>What the laser meter said: double-click and type, like 3.2, 320 cm or 10' 6"</source>
+   <translation>Was das Lasermessgerät sagte: doppelklicken und eingeben, etwa 3,2 oder 320 cm oder 10' 6"</translation>
+  </message>
+  <message>
+   <source>What the points are coloured by</source>
+   <translation>Wonach die Punkte gefärbt sind</translation>
+  </message>
+  <message>
+   <source>Wheel</source>
+   <translation>Mausrad</translation>
+  </message>
+  <message>
+   <source>Where is {0}?</source>
+   <translation>Wo ist {0}?</translation>
+  </message>
+  <message>
+   <source>Whole survey</source>
+   <translation>Ganze Aufnahme</translation>
+  </message>
+  <message>
+   <source>Whole window</source>
+   <translation>Ganzes Fenster</translation>
+  </message>
+  <message>
+   <source>Why it is there</source>
+   <translation>Warum es da ist</translation>
+  </message>
+  <message>
+   <source>Wider openings are no doors but openings (paper: 1.2 m).</source>
+   <translation>Breitere Öffnungen sind keine Türen, sondern Öffnungen (Artikel: 1,2 m).</translation>
+  </message>
+  <message>
+   <source>Widest aperture that is taken for a door.</source>
+   <translation>Breiteste Öffnung, die als Tür gilt.</translation>
+  </message>
+  <message>
+   <source>Widest gap in a wall that still parts two rooms.</source>
+   <translation>Breiteste Lücke in einer Wand, die noch zwei Räume trennt.</translation>
+  </message>
+  <message>
+   <source>Widest opening below a lintel that still separates two regions.</source>
+   <translation>Breiteste Öffnung unter einem Sturz, die noch zwei Regionen trennt.</translation>
+  </message>
+  <message>
+   <source>Width</source>
+   <translation>Breite</translation>
+  </message>
+  <message>
+   <source>Width of a histogram bin.</source>
+   <translation>Breite einer Klasse des Histogramms.</translation>
+  </message>
+  <message>
+   <source>Width that the filter is matched to (paper: 1 m).</source>
+   <translation>Breite, an die das Filter angepasst ist (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Window</source>
+   <translation>Fenster</translation>
+  </message>
+  <message>
+   <source>Worst side</source>
+   <translation>Schlechteste Seite</translation>
+  </message>
+  <message>
+   <source>Write the plan as SVG, GeoJSON, PNG or another format.</source>
+   <translation>Den Plan als SVG, GeoJSON, PNG oder in anderem Format schreiben.</translation>
+  </message>
+  <message>
+   <source>Write what was done as a list of actions that 'floorcast gui --script' runs again.</source>
+   <translation>Schreiben, was getan wurde, als Liste von Befehlen, die „floorcast gui --script“ wieder ausführt.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}.</source>
+   <translation>{0} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}; run it with: floorcast gui --script {1}</source>
+   <translation>{0} geschrieben; ausführen mit: floorcast gui --script {1}</translation>
+  </message>
+  <message>
+   <source>Wrote {name}.</source>
+   <translation>{name} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Yaw</source>
+   <translation>Drehung</translation>
+  </message>
+  <message>
+   <source>Yaw step</source>
+   <translation>Schritt der Drehung</translation>
+  </message>
+  <message>
+   <source>Zoom to it</source>
+   <translation>Heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to selection</source>
+   <translation>Auswahl heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to the pointer</source>
+   <translation>Zoomt zum Zeiger</translation>
+  </message>
+  <message>
+   <source>and {n} more</source>
+   <translation>und {n} weitere</translation>
+  </message>
+  <message>
+   <source>auto</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>comes as {value}</source>
+   <translation>geliefert: {value}</translation>
+  </message>
+  <message>
+   <source>corridor</source>
+   <translation>Flur</translation>
+  </message>
+  <message>
+   <source>door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>east</source>
+   <translation>Osten</translation>
+  </message>
+  <message>
+   <source>exact</source>
+   <translation>exakt</translation>
+  </message>
+  <message>
+   <source>frame {yaw} (support {share})</source>
+   <translation>Achsen {yaw} (Stützung {share})</translation>
+  </message>
+  <message>
+   <source>furniture</source>
+   <translation>Möbel</translation>
+  </message>
+  <message>
+   <source>greedy</source>
+   <translation>gierig</translation>
+  </message>
+  <message>
+   <source>greedy (paper) or exact (integer program, HiGHS).</source>
+   <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>mostly predicted</source>
+   <translation>meist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>no plan yet</source>
+   <translation>noch kein Plan</translation>
+  </message>
+  <message>
+   <source>north</source>
+   <translation>Norden</translation>
+  </message>
+  <message>
+   <source>opening</source>
+   <translation>Öffnung</translation>
+  </message>
+  <message>
+   <source>path {length}</source>
+   <translation>Weg {length}</translation>
+  </message>
+  <message>
+   <source>predicted</source>
+   <translation>vorhergesagt</translation>
+  </message>
+  <message>
+   <source>predicted {area}</source>
+   <translation>vorhergesagt {area}</translation>
+  </message>
+  <message>
+   <source>ready in {time}</source>
+   <translation>fertig in {time}</translation>
+  </message>
+  <message>
+   <source>recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>region</source>
+   <translation>Region</translation>
+  </message>
+  <message>
+   <source>regions {n}</source>
+   <translation>Regionen {n}</translation>
+  </message>
+  <message>
+   <source>room</source>
+   <translation>Raum</translation>
+  </message>
+  <message>
+   <source>seen {area}</source>
+   <translation>gesehen {area}</translation>
+  </message>
+  <message>
+   <source>south</source>
+   <translation>Süden</translation>
+  </message>
+  <message>
+   <source>type it here</source>
+   <translation>hier eingeben</translation>
+  </message>
+  <message>
+   <source>unit as guessed</source>
+   <translation>Einheit wie vermutet</translation>
+  </message>
+  <message>
+   <source>up axis as guessed</source>
+   <translation>Hochachse wie vermutet</translation>
+  </message>
+  <message>
+   <source>wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>west</source>
+   <translation>Westen</translation>
+  </message>
+  <message>
+   <source>worse than every LOA band</source>
+   <translation>schlechter als jede LOA-Klasse</translation>
+  </message>
+  <message>
+   <source>x from</source>
+   <translation>x von</translation>
+  </message>
+  <message>
+   <source>x to</source>
+   <translation>x bis</translation>
+  </message>
+  <message>
+   <source>y from</source>
+   <translation>y von</translation>
+  </message>
+  <message>
+   <source>y to</source>
+   <translation>y bis</translation>
+  </message>
+  <message>
+   <source>{0} ({1}) is not possible now.</source>
+   <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
+  </message>
+  <message>
+   <source>{0} failed: {1}: {2}.</source>
+   <translation>{0} ist gescheitert: {1}: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is no length; type one like 3.2, 320 cm or 10' 6".</source>
+   <translation>{0} ist keine Länge; möglich ist etwa 3,2 oder 320 cm oder 10' 6".</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions ({1}).</source>
+   <translation>{0} ist keine Liste von Befehlen ({1}).</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions like {"action": "file.open", "path": …}.</source>
+   <translation>{0} ist keine Liste von Befehlen wie {"action": "file.open", "path": …}.</translation>
+  </message>
+  <message>
+   <source>{0} is not a number of metres, like 3.412.</source>
+   <translation>{0} ist keine Zahl von Metern wie 3.412.</translation>
+  </message>
+  <message>
+   <source>{0} is not where it was; say where it lies now.</source>
+   <translation>{0} ist nicht mehr, wo es war; bitte sagen, wo es jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>{0} needs a window.</source>
+   <translation>{0} braucht ein Fenster.</translation>
+  </message>
+  <message>
+   <source>{0}: give it as an argument; there is nobody to ask.</source>
+   <translation>{0}: bitte als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{0}: give the path as an argument; there is nobody to ask.</source>
+   <translation>{0}: den Pfad als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{count} doors</source>
+   <translation>{count} Türen</translation>
+  </message>
+  <message>
+   <source>{free} free of {total}</source>
+   <translation>{free} frei von {total}</translation>
+  </message>
+  <message>
+   <source>{language} from the next start on.</source>
+   <translation>{language} ab dem nächsten Start.</translation>
+  </message>
+  <message>
+   <source>{low} to {high}</source>
+   <translation>{low} bis {high}</translation>
+  </message>
+  <message>
+   <source>{n} of {total}</source>
+   <translation>{n} von {total}</translation>
+  </message>
+  <message>
+   <source>{n} points</source>
+   <translation>{n} Punkte</translation>
+  </message>
+  <message>
+   <source>{n}, of them {rooms} rooms</source>
+   <translation>{n}, davon {rooms} Räume</translation>
+  </message>
+  <message>
+   <source>{planes} planes · {regions} regions · {doors} doors</source>
+   <translation>{planes} Ebenen · {regions} Regionen · {doors} Türen</translation>
+  </message>
+  <message>
+   <source>{share} sure</source>
+   <translation>{share} sicher</translation>
+  </message>
+  <message>
+   <source>{time} left</source>
+   <translation>noch {time}</translation>
+  </message>
+ </context>
+ <context>
+  <name>Interface</name>
+  <message>
+   <source>1 door</source>
+   <translation>1 Tür</translation>
+  </message>
+  <message>
+   <source>3D view</source>
+   <translation>3D-Ansicht</translation>
+  </message>
+  <message>
+   <source>95 % of its points lie closer</source>
+   <translation>95 % der Punkte liegen näher</translation>
+  </message>
+  <message>
+   <source>95 % of the points lie closer than this</source>
+   <translation>95 % der Punkte liegen näher als dies</translation>
+  </message>
+  <message>
+   <source>95 % within {band}</source>
+   <translation>95 % innerhalb {band}</translation>
+  </message>
+  <message>
+   <source>A corridor opens into a hall</source>
+   <translation>Ein Flur mündet in eine Halle</translation>
+  </message>
+  <message>
+   <source>A corridor up to this wide ends where it opens into a hall.</source>
+   <translation>Ein Flur bis zu dieser Breite endet, wo er in eine Halle mündet.</translation>
+  </message>
+  <message>
+   <source>A distance between two points.</source>
+   <translation>Ein Abstand zwischen zwei Punkten.</translation>
+  </message>
+  <message>
+   <source>A door cannot be {0} m wide.</source>
+   <translation>Eine Tür kann nicht {0} m breit sein.</translation>
+  </message>
+  <message>
+   <source>A door is a 'door' or an 'opening', not {0}.</source>
+   <translation>Eine Tür ist „door“ oder „opening“, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A door, or an opening: wider, or without a lintel</source>
+   <translation>Eine Tür oder eine Öffnung: breiter oder ohne Sturz</translation>
+  </message>
+  <message>
+   <source>A label is a word, like room or corridor.</source>
+   <translation>Eine Bezeichnung ist ein Wort wie room oder corridor.</translation>
+  </message>
+  <message>
+   <source>A larger turning distance to the square is a corridor (paper: 1).</source>
+   <translation>Ein größerer Drehabstand zum Quadrat ist ein Flur (Artikel: 1).</translation>
+  </message>
+  <message>
+   <source>A lintel less deep is shallow.</source>
+   <translation>Ein Sturz von weniger Tiefe ist flach.</translation>
+  </message>
+  <message>
+   <source>A longer boundary is a corridor (paper: 60 m).</source>
+   <translation>Ein längerer Umriss ist ein Flur (Artikel: 60 m).</translation>
+  </message>
+  <message>
+   <source>A measured length must be above 0 m, not {0}.</source>
+   <translation>Eine gemessene Länge muss über 0 m sein, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A name must not be empty.</source>
+   <translation>Ein Name darf nicht leer sein.</translation>
+  </message>
+  <message>
+   <source>A normal this near to an axis supports the frame.</source>
+   <translation>Eine Normale, die so nahe an einer Achse liegt, stützt das Achsensystem.</translation>
+  </message>
+  <message>
+   <source>A person says so</source>
+   <translation>Ein Mensch sagt es</translation>
+  </message>
+  <message>
+   <source>A picture has 16 to 16384 pixels a side (asked: {0} x {1}).</source>
+   <translation>Ein Bild hat 16 bis 16384 Pixel je Seite (verlangt: {0} x {1}).</translation>
+  </message>
+  <message>
+   <source>A picture of one pane at any resolution.</source>
+   <translation>Ein Bild einer Ansicht in beliebiger Auflösung.</translation>
+  </message>
+  <message>
+   <source>A place is two numbers in metres, like (1.5, 2.0); given {0}.</source>
+   <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
+  </message>
+  <message>
+   <source>A surface that ends less than this below the ceiling touches it.</source>
+   <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
+  </message>
+  <message>
+   <source>A surface that reaches above this is no furniture.</source>
+   <translation>Eine Fläche, die höher reicht, ist kein Möbel.</translation>
+  </message>
+  <message>
+   <source>A terrestrial scanner sees a wall to millimetres; narrow tolerances tell a recess from its wall.</source>
+   <translation>Ein Standscanner misst eine Wand auf Millimeter; enge Toleranzen trennen eine Nische von ihrer Wand.</translation>
+  </message>
+  <message>
+   <source>A wall of {0} m is no wall: its thickness is between 0 and {1} m.</source>
+   <translation>Eine Wand von {0} m ist keine: Ihre Dicke liegt zwischen 0 und {1} m.</translation>
+  </message>
+  <message>
+   <source>A wider lintel between two walls that go on beyond it is a beam, and separates nothing.</source>
+   <translation>Ein breiterer Sturz zwischen zwei Wänden, die dahinter weitergehen, ist ein Unterzug und trennt nichts.</translation>
+  </message>
+  <message>
+   <source>A3 at 300 dpi</source>
+   <translation>A3 mit 300 dpi</translation>
+  </message>
+  <message>
+   <source>About Floorcast</source>
+   <translation>Über Floorcast</translation>
+  </message>
+  <message>
+   <source>Above the floor</source>
+   <translation>Über dem Boden</translation>
+  </message>
+  <message>
+   <source>Accept door</source>
+   <translation>Tür bestätigen</translation>
+  </message>
+  <message>
+   <source>Accept {0}</source>
+   <translation>{0} bestätigen</translation>
+  </message>
+  <message>
+   <source>Accepted by hand</source>
+   <translation>Von Hand bestätigt</translation>
+  </message>
+  <message>
+   <source>Add a measurement…</source>
+   <translation>Messung hinzufügen…</translation>
+  </message>
+  <message>
+   <source>Add door</source>
+   <translation>Tür hinzufügen</translation>
+  </message>
+  <message>
+   <source>Add wall</source>
+   <translation>Wand hinzufügen</translation>
+  </message>
+  <message>
+   <source>Added by hand</source>
+   <translation>Von Hand hinzugefügt</translation>
+  </message>
+  <message>
+   <source>Agreement</source>
+   <translation>Übereinstimmung</translation>
+  </message>
+  <message>
+   <source>All files</source>
+   <translation>Alle Dateien</translation>
+  </message>
+  <message>
+   <source>All settings as they come.</source>
+   <translation>Alle Einstellungen wie geliefert.</translation>
+  </message>
+  <message>
+   <source>All shortcuts and gestures on one sheet.</source>
+   <translation>Alle Tastenkürzel und Gesten auf einem Blatt.</translation>
+  </message>
+  <message>
+   <source>All steps so far; click one to go back to it.</source>
+   <translation>Alle bisherigen Schritte; ein Klick führt dorthin zurück.</translation>
+  </message>
+  <message>
+   <source>Along the way it faces</source>
+   <translation>In der Richtung, in die sie weist</translation>
+  </message>
+  <message>
+   <source>An observed offset may differ this much from its plane (3 sigma).</source>
+   <translation>So weit darf eine gemessene Lage von ihrer Ebene abweichen (3 Sigma).</translation>
+  </message>
+  <message>
+   <source>Angle</source>
+   <translation>Winkel</translation>
+  </message>
+  <message>
+   <source>Aperture</source>
+   <translation>Öffnungsbreite</translation>
+  </message>
+  <message>
+   <source>Area</source>
+   <translation>Fläche</translation>
+  </message>
+  <message>
+   <source>As in the paper</source>
+   <translation>Wie im Artikel</translation>
+  </message>
+  <message>
+   <source>Auto</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Automatic</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Back to the plan of all that was measured</source>
+   <translation>Zurück zum Plan aus allem, was gemessen wurde</translation>
+  </message>
+  <message>
+   <source>Back to {value}</source>
+   <translation>Zurück auf {value}</translation>
+  </message>
+  <message>
+   <source>Below this share of supporting wall there is no Manhattan frame.</source>
+   <translation>Stützt ein kleinerer Anteil der Wände, gibt es kein Manhattan-Achsensystem.</translation>
+  </message>
+  <message>
+   <source>Bin</source>
+   <translation>Klassenbreite</translation>
+  </message>
+  <message>
+   <source>Bridge</source>
+   <translation>Überbrückung</translation>
+  </message>
+  <message>
+   <source>Bring it into view</source>
+   <translation>Ins Bild holen</translation>
+  </message>
+  <message>
+   <source>Bring one pane to the front.</source>
+   <translation>Eine Ansicht nach vorne holen.</translation>
+  </message>
+  <message>
+   <source>Bring the selected thing into view.</source>
+   <translation>Das Gewählte ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Bring the whole plan into view.</source>
+   <translation>Den ganzen Plan ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>By hand</source>
+   <translation>Von Hand</translation>
+  </message>
+  <message>
+   <source>Camera, ceiling cut and section box by numbers.</source>
+   <translation>Kamera, Deckenschnitt und Schnittquader nach Zahlen.</translation>
+  </message>
+  <message>
+   <source>Cancel</source>
+   <translation>Abbrechen</translation>
+  </message>
+  <message>
+   <source>Cancel (Esc)</source>
+   <translation>Abbrechen (Esc)</translation>
+  </message>
+  <message>
+   <source>Cancel the work, then the gesture, then the selection</source>
+   <translation>Bricht die Arbeit ab, dann die Geste, dann die Auswahl</translation>
+  </message>
+  <message>
+   <source>Cancelled.</source>
+   <translation>Abgebrochen.</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles</source>
+   <translation>Kandidatenrechtecke</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles and their pruning.</source>
+   <translation>Kandidatenrechtecke und ihre Auslese.</translation>
+  </message>
+  <message>
+   <source>Candidates</source>
+   <translation>Kandidaten</translation>
+  </message>
+  <message>
+   <source>Candidates that the greedy cover chose</source>
+   <translation>Kandidaten, die die gierige Überdeckung gewählt hat</translation>
+  </message>
+  <message>
+   <source>Cannot write the picture {0}.</source>
+   <translation>Das Bild {0} kann nicht geschrieben werden.</translation>
+  </message>
+  <message>
+   <source>Ceiling cut</source>
+   <translation>Deckenschnitt</translation>
+  </message>
+  <message>
+   <source>Ceiling gap</source>
+   <translation>Abstand zur Decke</translation>
+  </message>
+  <message>
+   <source>Cell</source>
+   <translation>Zelle</translation>
+  </message>
+  <message>
+   <source>Cells</source>
+   <translation>Zellen</translation>
+  </message>
+  <message>
+   <source>Cells in which normals are fitted.</source>
+   <translation>Zellen, in denen Normalen bestimmt werden.</translation>
+  </message>
+  <message>
+   <source>Change a setting…</source>
+   <translation>Einstellung ändern…</translation>
+  </message>
+  <message>
+   <source>Change one number of the method; only what depends on it is planned again.</source>
+   <translation>Eine Zahl des Verfahrens ändern; nur was davon abhängt, wird neu geplant.</translation>
+  </message>
+  <message>
+   <source>Change several settings in one step.</source>
+   <translation>Mehrere Einstellungen in einem Schritt ändern.</translation>
+  </message>
+  <message>
+   <source>Changed</source>
+   <translation>Geändert</translation>
+  </message>
+  <message>
+   <source>Check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>Check {name}</source>
+   <translation>Messung {name}</translation>
+  </message>
+  <message>
+   <source>Classifier</source>
+   <translation>Klassifikator</translation>
+  </message>
+  <message>
+   <source>Clear the selection (Esc does it, too).</source>
+   <translation>Die Auswahl aufheben (auch mit Esc).</translation>
+  </message>
+  <message>
+   <source>Click</source>
+   <translation>Klick</translation>
+  </message>
+  <message>
+   <source>Click to select, drag what is selected.</source>
+   <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Click two regions that are one.</source>
+   <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Close</source>
+   <translation>Schließen</translation>
+  </message>
+  <message>
+   <source>Close the program.</source>
+   <translation>Das Programm beenden.</translation>
+  </message>
+  <message>
+   <source>Close the survey.</source>
+   <translation>Die Aufnahme schließen.</translation>
+  </message>
+  <message>
+   <source>Close without saving?</source>
+   <translation>Ohne Speichern schließen?</translation>
+  </message>
+  <message>
+   <source>Colour the points by facing.</source>
+   <translation>Die Punkte nach Richtung färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by height.</source>
+   <translation>Die Punkte nach Höhe färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by intensity.</source>
+   <translation>Die Punkte nach Intensität färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by its own colour.</source>
+   <translation>Die Punkte in eigener Farbe zeigen.</translation>
+  </message>
+  <message>
+   <source>Colour the points by plane.</source>
+   <translation>Die Punkte nach Ebene färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by {0}.</source>
+   <translation>Die Punkte nach {0} färben.</translation>
+  </message>
+  <message>
+   <source>Compact isolated objects up to this size are furniture or columns.</source>
+   <translation>Kompakte freistehende Objekte bis zu dieser Größe sind Möbel oder Stützen.</translation>
+  </message>
+  <message>
+   <source>Confidence</source>
+   <translation>Sicherheit</translation>
+  </message>
+  <message>
+   <source>Copy</source>
+   <translation>Kopieren</translation>
+  </message>
+  <message>
+   <source>Copy picture</source>
+   <translation>Bild kopieren</translation>
+  </message>
+  <message>
+   <source>Corner</source>
+   <translation>Ecke</translation>
+  </message>
+  <message>
+   <source>Correct</source>
+   <translation>Korrigieren</translation>
+  </message>
+  <message>
+   <source>Corrected</source>
+   <translation>Korrigiert</translation>
+  </message>
+  <message>
+   <source>Correction</source>
+   <translation>Korrektur</translation>
+  </message>
+  <message>
+   <source>Cover</source>
+   <translation>Überdeckung</translation>
+  </message>
+  <message>
+   <source>Covering the free space</source>
+   <translation>Freiraum überdecken</translation>
+  </message>
+  <message>
+   <source>Crop height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Dark</source>
+   <translation>Dunkel</translation>
+  </message>
+  <message>
+   <source>Dark colours for dark rooms.</source>
+   <translation>Dunkle Farben für dunkle Räume.</translation>
+  </message>
+  <message>
+   <source>Delete</source>
+   <translation>Löschen</translation>
+  </message>
+  <message>
+   <source>Depth camera, noisy</source>
+   <translation>Tiefenkamera, verrauscht</translation>
+  </message>
+  <message>
+   <source>Deutsch</source>
+   <translation>Deutsch</translation>
+  </message>
+  <message>
+   <source>Dimensions</source>
+   <translation>Maße</translation>
+  </message>
+  <message>
+   <source>Discard</source>
+   <translation>Verwerfen</translation>
+  </message>
+  <message>
+   <source>Dismiss</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Distance between the two points on the plan</source>
+   <translation>Abstand der beiden Punkte im Plan</translation>
+  </message>
+  <message>
+   <source>Do again what was taken back.</source>
+   <translation>Das Zurückgenommene wiederholen.</translation>
+  </message>
+  <message>
+   <source>Door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>Door evidence</source>
+   <translation>Türbelege</translation>
+  </message>
+  <message>
+   <source>Door opening</source>
+   <translation>Türverengung</translation>
+  </message>
+  <message>
+   <source>Door wall</source>
+   <translation>Wandanteil an Türen</translation>
+  </message>
+  <message>
+   <source>Door {name}</source>
+   <translation>Tür {name}</translation>
+  </message>
+  <message>
+   <source>Doors</source>
+   <translation>Türen</translation>
+  </message>
+  <message>
+   <source>Doors by histogram, smoothed gradient and matched filter.</source>
+   <translation>Türen durch Histogramm, geglätteten Gradienten und angepasstes Filter.</translation>
+  </message>
+  <message>
+   <source>Doors that are less probable are not reported.</source>
+   <translation>Weniger wahrscheinliche Türen werden nicht gemeldet.</translation>
+  </message>
+  <message>
+   <source>Double click</source>
+   <translation>Doppelklick</translation>
+  </message>
+  <message>
+   <source>Drag a selected plane or type its offset; two clicks add one.</source>
+   <translation>Eine gewählte Ebene ziehen oder ihre Lage eingeben; zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
+   <source>Drag a selected wall</source>
+   <translation>Eine gewählte Wand ziehen</translation>
+  </message>
+  <message>
+   <source>Drag the end of a selected door</source>
+   <translation>Das Ende einer gewählten Tür ziehen</translation>
+  </message>
+  <message>
+   <source>Draw a wall that the machine does not know: two clicks.</source>
+   <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
+  </message>
+  <message>
+   <source>Drop a survey or a project here</source>
+   <translation>Aufnahme oder Projekt hier ablegen</translation>
+  </message>
+  <message>
+   <source>Edit</source>
+   <translation>Bearbeiten</translation>
+  </message>
+  <message>
+   <source>English</source>
+   <translation>English</translation>
+  </message>
+  <message>
+   <source>Esc</source>
+   <translation>Esc</translation>
+  </message>
+  <message>
+   <source>Exact cover</source>
+   <translation>Exakte Überdeckung</translation>
+  </message>
+  <message>
+   <source>Export CSV…</source>
+   <translation>CSV exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table</source>
+   <translation>Die Kontrolltabelle exportieren</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table…</source>
+   <translation>Kontrolltabelle exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the plan</source>
+   <translation>Den Plan exportieren</translation>
+  </message>
+  <message>
+   <source>Exported {0}.</source>
+   <translation>{0} exportiert.</translation>
+  </message>
+  <message>
+   <source>Exporting</source>
+   <translation>Exportieren</translation>
+  </message>
+  <message>
+   <source>Export…</source>
+   <translation>Exportieren…</translation>
+  </message>
+  <message>
+   <source>Faces</source>
+   <translation>Weist nach</translation>
+  </message>
+  <message>
+   <source>Faces east</source>
+   <translation>Weist nach Osten</translation>
+  </message>
+  <message>
+   <source>Faces north</source>
+   <translation>Weist nach Norden</translation>
+  </message>
+  <message>
+   <source>Faces south</source>
+   <translation>Weist nach Süden</translation>
+  </message>
+  <message>
+   <source>Faces west</source>
+   <translation>Weist nach Westen</translation>
+  </message>
+  <message>
+   <source>Facing</source>
+   <translation>Richtung</translation>
+  </message>
+  <message>
+   <source>Facings are known once there is a plan: points by height</source>
+   <translation>Richtungen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Feet and inches</source>
+   <translation>Fuß und Zoll</translation>
+  </message>
+  <message>
+   <source>File</source>
+   <translation>Datei</translation>
+  </message>
+  <message>
+   <source>Filter</source>
+   <translation>Filter</translation>
+  </message>
+  <message>
+   <source>Find a command…</source>
+   <translation>Befehl suchen…</translation>
+  </message>
+  <message>
+   <source>Find the survey…</source>
+   <translation>Aufnahme suchen…</translation>
+  </message>
+  <message>
+   <source>Find {0}</source>
+   <translation>{0} suchen</translation>
+  </message>
+  <message>
+   <source>Finding the axes</source>
+   <translation>Achsen bestimmen</translation>
+  </message>
+  <message>
+   <source>Finding the storeys</source>
+   <translation>Geschosse bestimmen</translation>
+  </message>
+  <message>
+   <source>Fit</source>
+   <translation>Einpassen</translation>
+  </message>
+  <message>
+   <source>Floor plan</source>
+   <translation>Grundriss</translation>
+  </message>
+  <message>
+   <source>Floor plans with what was not seen, after the paper “{title}” by Shariati, Pfrommer and Taylor.</source>
+   <translation>Grundrisse samt dem, was nicht gesehen wurde, nach dem Artikel „{title}“ von Shariati, Pfrommer und Taylor.</translation>
+  </message>
+  <message>
+   <source>Floor to ceiling</source>
+   <translation>Vom Boden zur Decke</translation>
+  </message>
+  <message>
+   <source>Floorcast did not end well. {title} was kept as it was at {when}.</source>
+   <translation>Floorcast wurde unerwartet beendet. {title} ist auf dem Stand von {when} erhalten.</translation>
+  </message>
+  <message>
+   <source>Floorcast failed in this job ({0}: {1}).</source>
+   <translation>Floorcast ist bei dieser Arbeit gescheitert ({0}: {1}).</translation>
+  </message>
+  <message>
+   <source>For as-built drawings; a region needs at least a third of its floor seen, and doubtful doors are left out.</source>
+   <translation>Für Bestandspläne: Von einer Region muss mindestens ein Drittel gesehen sein, zweifelhafte Türen entfallen.</translation>
+  </message>
+  <message>
+   <source>For scripts: select things by kind and id.</source>
+   <translation>Für Skripte: Dinge nach Art und Kennung wählen.</translation>
+  </message>
+  <message>
+   <source>Force the yaw of the walls instead of estimating it.</source>
+   <translation>Die Drehung der Wände vorgeben, statt sie zu schätzen.</translation>
+  </message>
+  <message>
+   <source>Four panes side by side.</source>
+   <translation>Vier Ansichten nebeneinander.</translation>
+  </message>
+  <message>
+   <source>Frame</source>
+   <translation>Achsensystem</translation>
+  </message>
+  <message>
+   <source>Free</source>
+   <translation>Frei</translation>
+  </message>
+  <message>
+   <source>Free space</source>
+   <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space ends there along a straight line</source>
+   <translation>Der Freiraum endet dort an einer geraden Linie</translation>
+  </message>
+  <message>
+   <source>Free space runs through it</source>
+   <translation>Freiraum geht hindurch</translation>
+  </message>
+  <message>
+   <source>Free space that was not seen</source>
+   <translation>Freiraum, der nicht gesehen wurde</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Von</translation>
+  </message>
+  <message>
+   <source>From a ceiling to the floor of the storey above it at most.</source>
+   <translation>Höchstens von einer Decke zum Boden des Geschosses darüber.</translation>
+  </message>
+  <message>
+   <source>From a floor to the ceiling above it at least.</source>
+   <translation>Mindestens von einem Boden zur Decke darüber.</translation>
+  </message>
+  <message>
+   <source>From plan</source>
+   <translation>Aus dem Plan</translation>
+  </message>
+  <message>
+   <source>From the floor to the lintel</source>
+   <translation>Vom Boden bis zum Sturz</translation>
+  </message>
+  <message>
+   <source>From what was measured to the plan that explains it.</source>
+   <translation>Vom Gemessenen zum Plan, der es erklärt.</translation>
+  </message>
+  <message>
+   <source>Front</source>
+   <translation>Vorne</translation>
+  </message>
+  <message>
+   <source>Furniture height</source>
+   <translation>Möbelhöhe</translation>
+  </message>
+  <message>
+   <source>Furniture ratio</source>
+   <translation>Möbelverhältnis</translation>
+  </message>
+  <message>
+   <source>Furniture size</source>
+   <translation>Möbelgröße</translation>
+  </message>
+  <message>
+   <source>Give it the name that people use.</source>
+   <translation>Den Namen geben, den die Leute benutzen.</translation>
+  </message>
+  <message>
+   <source>Gradient</source>
+   <translation>Gradient</translation>
+  </message>
+  <message>
+   <source>Grid {step}</source>
+   <translation>Raster {step}</translation>
+  </message>
+  <message>
+   <source>Ground truth</source>
+   <translation>Kontrollmaße</translation>
+  </message>
+  <message>
+   <source>Guessed sides</source>
+   <translation>Geratene Seiten</translation>
+  </message>
+  <message>
+   <source>Halls and long ranges</source>
+   <translation>Hallen und große Weiten</translation>
+  </message>
+  <message>
+   <source>Height</source>
+   <translation>Höhe</translation>
+  </message>
+  <message>
+   <source>Height h above the floor; none: the height that shows most free cells.</source>
+   <translation>Höhe h über dem Boden; keine: die Höhe mit den meisten freien Zellen.</translation>
+  </message>
+  <message>
+   <source>Height of the slice above the floor</source>
+   <translation>Höhe des Schnitts über dem Boden</translation>
+  </message>
+  <message>
+   <source>Help</source>
+   <translation>Hilfe</translation>
+  </message>
+  <message>
+   <source>Hide</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Hide it in the panes</source>
+   <translation>In den Ansichten ausblenden</translation>
+  </message>
+  <message>
+   <source>Histogram</source>
+   <translation>Histogramm</translation>
+  </message>
+  <message>
+   <source>Histogram, gradient and matched filter along the wall</source>
+   <translation>Histogramm, Gradient und angepasstes Filter entlang der Wand</translation>
+  </message>
+  <message>
+   <source>History</source>
+   <translation>Verlauf</translation>
+  </message>
+  <message>
+   <source>History…</source>
+   <translation>Verlauf…</translation>
+  </message>
+  <message>
+   <source>Hit ratio</source>
+   <translation>Trefferanteil</translation>
+  </message>
+  <message>
+   <source>How sure</source>
+   <translation>Wie sicher</translation>
+  </message>
+  <message>
+   <source>How the file is read.</source>
+   <translation>Wie die Datei gelesen wird.</translation>
+  </message>
+  <message>
+   <source>In stations, shops and plants walls are far and doors are wide; points are kept to 100 m.</source>
+   <translation>In Bahnhöfen, Läden und Werken sind Wände fern und Türen breit; Punkte gelten bis 100 m.</translation>
+  </message>
+  <message>
+   <source>In use</source>
+   <translation>In Gebrauch</translation>
+  </message>
+  <message>
+   <source>Indoor share</source>
+   <translation>Innenanteil</translation>
+  </message>
+  <message>
+   <source>Input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>Inspect</source>
+   <translation>Prüfen</translation>
+  </message>
+  <message>
+   <source>Intensity</source>
+   <translation>Intensität</translation>
+  </message>
+  <message>
+   <source>Isolated objects longer than this times their width are pieces of wall.</source>
+   <translation>Freistehende Objekte, die länger als das Soundsovielfache ihrer Breite sind, sind Wandstücke.</translation>
+  </message>
+  <message>
+   <source>It is a door, however sure the machine is.</source>
+   <translation>Es ist eine Tür, wie sicher das Programm auch ist.</translation>
+  </message>
+  <message>
+   <source>It is a wall, even where the machine takes it for furniture; also switches a wall on again.</source>
+   <translation>Es ist eine Wand, auch wo das Programm sie für ein Möbel hält; schaltet eine Wand auch wieder ein.</translation>
+  </message>
+  <message>
+   <source>It is long, and its top was not seen</source>
+   <translation>Sie ist lang, ihr oberes Ende wurde nicht gesehen</translation>
+  </message>
+  <message>
+   <source>It is low</source>
+   <translation>Sie ist niedrig</translation>
+  </message>
+  <message>
+   <source>It is narrow between two wide spaces</source>
+   <translation>Es ist eng zwischen zwei weiten Räumen</translation>
+  </message>
+  <message>
+   <source>It is no door: the wall goes on here.</source>
+   <translation>Es ist keine Tür: Die Wand geht hier weiter.</translation>
+  </message>
+  <message>
+   <source>It is no wall: it bounds no room and keeps none apart.</source>
+   <translation>Es ist keine Wand: Sie begrenzt und trennt keinen Raum.</translation>
+  </message>
+  <message>
+   <source>It reaches above furniture</source>
+   <translation>Sie reicht höher als Möbel</translation>
+  </message>
+  <message>
+   <source>It reaches the ceiling</source>
+   <translation>Sie reicht bis zur Decke</translation>
+  </message>
+  <message>
+   <source>It was seen from both sides of the wall</source>
+   <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Its thickness</source>
+   <translation>Ihre Dicke</translation>
+  </message>
+  <message>
+   <source>Join gap</source>
+   <translation>Verbindungslücke</translation>
+  </message>
+  <message>
+   <source>Joins</source>
+   <translation>Verbindet</translation>
+  </message>
+  <message>
+   <source>Keep it whatever the machine finds</source>
+   <translation>Behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>Keep wall</source>
+   <translation>Wand behalten</translation>
+  </message>
+  <message>
+   <source>Keep {0}</source>
+   <translation>{0} behalten</translation>
+  </message>
+  <message>
+   <source>Kept by hand</source>
+   <translation>Von Hand behalten</translation>
+  </message>
+  <message>
+   <source>Kept whatever the machine finds</source>
+   <translation>Wird behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>LOA</source>
+   <translation>LOA</translation>
+  </message>
+  <message>
+   <source>Label {0} {1}</source>
+   <translation>{0} als {1} bezeichnen</translation>
+  </message>
+  <message>
+   <source>Labelled by hand</source>
+   <translation>Von Hand bezeichnet</translation>
+  </message>
+  <message>
+   <source>Labels</source>
+   <translation>Bezeichnungen</translation>
+  </message>
+  <message>
+   <source>Large screen</source>
+   <translation>Großer Bildschirm</translation>
+  </message>
+  <message>
+   <source>Largest angle of a surface to the axis of its facing.</source>
+   <translation>Größter Winkel einer Fläche zur Achse ihrer Richtung.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a cell's thickness to its width.</source>
+   <translation>Größtes Verhältnis von Dicke zu Breite einer Zelle.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a door's width to the free width beyond, on both sides.</source>
+   <translation>Größtes Verhältnis der Türbreite zur freien Breite dahinter, auf beiden Seiten.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of half a corridor's width to the hall's inscribed radius.</source>
+   <translation>Größtes Verhältnis der halben Flurbreite zum Inkreisradius der Halle.</translation>
+  </message>
+  <message>
+   <source>Laser meter</source>
+   <translation>Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Lay the voxels along the survey's own axes: where the file's world lies changes nothing.</source>
+   <translation>Die Voxel längs der Achsen der Aufnahme legen: Wo die Welt der Datei liegt, ändert nichts.</translation>
+  </message>
+  <message>
+   <source>Layers</source>
+   <translation>Layer</translation>
+  </message>
+  <message>
+   <source>Layout planes</source>
+   <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Layout segments: observed patches of structural surfaces.</source>
+   <translation>Wandstücke: gesehene Flecken baulicher Flächen.</translation>
+  </message>
+  <message>
+   <source>Least share of a space that its rectangles must explain; else the map's outline is taken.</source>
+   <translation>Mindestanteil eines Raums, den seine Rechtecke erklären müssen; sonst gilt der Umriss der Karte.</translation>
+  </message>
+  <message>
+   <source>Least share of wall in the line of a door, the door included.</source>
+   <translation>Mindestanteil an Wand in der Linie einer Tür, die Tür eingeschlossen.</translation>
+  </message>
+  <message>
+   <source>Left drag in 3D</source>
+   <translation>Ziehen mit links in 3D</translation>
+  </message>
+  <message>
+   <source>Leg size</source>
+   <translation>Beingröße</translation>
+  </message>
+  <message>
+   <source>Length</source>
+   <translation>Länge</translation>
+  </message>
+  <message>
+   <source>Length that is wall: seen, or between seen parts</source>
+   <translation>Länge, die Wand ist: gesehen oder zwischen gesehenen Teilen</translation>
+  </message>
+  <message>
+   <source>Lengths, differences, percentages, means and accuracy bands as CSV.</source>
+   <translation>Längen, Unterschiede, Prozente, Mittel und Genauigkeitsklassen als CSV.</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the difference meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die der Unterschied erfüllt</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the residual meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die die Restabweichung erfüllt</translation>
+  </message>
+  <message>
+   <source>Licence</source>
+   <translation>Lizenz</translation>
+  </message>
+  <message>
+   <source>Lintel depth</source>
+   <translation>Sturztiefe</translation>
+  </message>
+  <message>
+   <source>Longest run of the exact solver.</source>
+   <translation>Längste Laufzeit des exakten Lösers.</translation>
+  </message>
+  <message>
+   <source>Look from a corner, from above</source>
+   <translation>Von einer Ecke schräg von oben</translation>
+  </message>
+  <message>
+   <source>Look from there, key {key}</source>
+   <translation>Von dort schauen, Taste {key}</translation>
+  </message>
+  <message>
+   <source>Looks right</source>
+   <translation>Stimmt so</translation>
+  </message>
+  <message>
+   <source>Machine</source>
+   <translation>Programm</translation>
+  </message>
+  <message>
+   <source>Made from</source>
+   <translation>Gemacht aus</translation>
+  </message>
+  <message>
+   <source>Made with</source>
+   <translation>Gemacht mit</translation>
+  </message>
+  <message>
+   <source>Make the selected regions one; the wall between them goes.</source>
+   <translation>Die gewählten Regionen vereinen; die Wand dazwischen fällt weg.</translation>
+  </message>
+  <message>
+   <source>Manhattan frame: gravity and yaw.</source>
+   <translation>Manhattan-Achsensystem: Lot und Drehung.</translation>
+  </message>
+  <message>
+   <source>Maps</source>
+   <translation>Karten</translation>
+  </message>
+  <message>
+   <source>Max askew</source>
+   <translation>Schräganteil höchstens</translation>
+  </message>
+  <message>
+   <source>Max beamless</source>
+   <translation>Breite ohne Unterzug höchstens</translation>
+  </message>
+  <message>
+   <source>Max count</source>
+   <translation>Anzahl höchstens</translation>
+  </message>
+  <message>
+   <source>Max door</source>
+   <translation>Türbreite höchstens</translation>
+  </message>
+  <message>
+   <source>Max mouth</source>
+   <translation>Mündung höchstens</translation>
+  </message>
+  <message>
+   <source>Max opening</source>
+   <translation>Öffnung höchstens</translation>
+  </message>
+  <message>
+   <source>Max passage</source>
+   <translation>Durchgang höchstens</translation>
+  </message>
+  <message>
+   <source>Max range</source>
+   <translation>Entfernung höchstens</translation>
+  </message>
+  <message>
+   <source>Max ratio</source>
+   <translation>Verhältnis höchstens</translation>
+  </message>
+  <message>
+   <source>Max room perimeter</source>
+   <translation>Raumumfang höchstens</translation>
+  </message>
+  <message>
+   <source>Max room turning</source>
+   <translation>Drehabstand von Räumen höchstens</translation>
+  </message>
+  <message>
+   <source>Max slab</source>
+   <translation>Deckenstärke höchstens</translation>
+  </message>
+  <message>
+   <source>Max thickness</source>
+   <translation>Dicke höchstens</translation>
+  </message>
+  <message>
+   <source>Max width</source>
+   <translation>Breite höchstens</translation>
+  </message>
+  <message>
+   <source>Mean of {n}: {error} · {percent} %</source>
+   <translation>Mittel aus {n}: {error} · {percent} %</translation>
+  </message>
+  <message>
+   <source>Measure</source>
+   <translation>Messen</translation>
+  </message>
+  <message>
+   <source>Measure a distance on the plan; then type here what the laser meter said.</source>
+   <translation>Einen Abstand im Plan messen; dann hier eingeben, was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>Measure {0} m</source>
+   <translation>{0} m messen</translation>
+  </message>
+  <message>
+   <source>Merge</source>
+   <translation>Vereinen</translation>
+  </message>
+  <message>
+   <source>Merge regions</source>
+   <translation>Regionen vereinen</translation>
+  </message>
+  <message>
+   <source>Merge {0}</source>
+   <translation>{0} vereinen</translation>
+  </message>
+  <message>
+   <source>Merged by hand</source>
+   <translation>Von Hand vereint</translation>
+  </message>
+  <message>
+   <source>Middle or right drag</source>
+   <translation>Ziehen mit der mittleren oder rechten Taste</translation>
+  </message>
+  <message>
+   <source>Min area</source>
+   <translation>Fläche mindestens</translation>
+  </message>
+  <message>
+   <source>Min component</source>
+   <translation>Fleck mindestens</translation>
+  </message>
+  <message>
+   <source>Min confidence</source>
+   <translation>Sicherheit mindestens</translation>
+  </message>
+  <message>
+   <source>Min height</source>
+   <translation>Höhe mindestens</translation>
+  </message>
+  <message>
+   <source>Min length</source>
+   <translation>Länge mindestens</translation>
+  </message>
+  <message>
+   <source>Min misses</source>
+   <translation>Durchgänge mindestens</translation>
+  </message>
+  <message>
+   <source>Min range</source>
+   <translation>Entfernung mindestens</translation>
+  </message>
+  <message>
+   <source>Min response</source>
+   <translation>Antwort mindestens</translation>
+  </message>
+  <message>
+   <source>Min rest side</source>
+   <translation>Restseite mindestens</translation>
+  </message>
+  <message>
+   <source>Min share</source>
+   <translation>Anteil mindestens</translation>
+  </message>
+  <message>
+   <source>Min side</source>
+   <translation>Seite mindestens</translation>
+  </message>
+  <message>
+   <source>Min space</source>
+   <translation>Raum mindestens</translation>
+  </message>
+  <message>
+   <source>Min support</source>
+   <translation>Stützung mindestens</translation>
+  </message>
+  <message>
+   <source>Min width</source>
+   <translation>Breite mindestens</translation>
+  </message>
+  <message>
+   <source>Mirrored</source>
+   <translation>Gespiegelt</translation>
+  </message>
+  <message>
+   <source>More valid rectangles than this are refused.</source>
+   <translation>Mehr gültige Rechtecke werden abgelehnt.</translation>
+  </message>
+  <message>
+   <source>Mouse</source>
+   <translation>Maus</translation>
+  </message>
+  <message>
+   <source>Mouth opening</source>
+   <translation>Mündungsverengung</translation>
+  </message>
+  <message>
+   <source>Move it; it snaps to evidence</source>
+   <translation>Verschiebt sie; sie rastet an Gemessenem ein</translation>
+  </message>
+  <message>
+   <source>Move wall {0} to {1} m</source>
+   <translation>Wand {0} nach {1} m schieben</translation>
+  </message>
+  <message>
+   <source>Move wall…</source>
+   <translation>Wand verschieben…</translation>
+  </message>
+  <message>
+   <source>Moved by hand</source>
+   <translation>Von Hand verschoben</translation>
+  </message>
+  <message>
+   <source>Name of the region classifier (see `floorcast plugins`).</source>
+   <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
+  </message>
+  <message>
+   <source>Named by hand</source>
+   <translation>Von Hand benannt</translation>
+  </message>
+  <message>
+   <source>Narrower gaps are holes in the data.</source>
+   <translation>Schmalere Lücken sind Löcher in den Daten.</translation>
+  </message>
+  <message>
+   <source>Narrower openings are no doors (paper: 0.8 m).</source>
+   <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No setting is called that.</source>
+   <translation>So heißt keine Einstellung.</translation>
+  </message>
+  <message>
+   <source>Not enough memory for this survey.</source>
+   <translation>Zu wenig Speicher für diese Aufnahme.</translation>
+  </message>
+  <message>
+   <source>Not seen</source>
+   <translation>Nicht gesehen</translation>
+  </message>
+  <message>
+   <source>Note</source>
+   <translation>Notiz</translation>
+  </message>
+  <message>
+   <source>Note on {0}</source>
+   <translation>Notiz zu {0}</translation>
+  </message>
+  <message>
+   <source>Nothing can be clicked by coordinates in the pane {0}.</source>
+   <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing to warn of.</source>
+   <translation>Nichts zu warnen.</translation>
+  </message>
+  <message>
+   <source>Nothing was said by hand of {0}.</source>
+   <translation>Von Hand wurde über {0} nichts gesagt.</translation>
+  </message>
+  <message>
+   <source>Nothing was seen along this wall.</source>
+   <translation>Entlang dieser Wand wurde nichts gesehen.</translation>
+  </message>
+  <message>
+   <source>Observed</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Observed segments</source>
+   <translation>Gesehene Wandstücke</translation>
+  </message>
+  <message>
+   <source>Occupancy</source>
+   <translation>Belegung</translation>
+  </message>
+  <message>
+   <source>Occupancy grid maps: what parts two rooms on a map without heights.</source>
+   <translation>Belegungskarten: was zwei Räume auf einer Karte ohne Höhen trennt.</translation>
+  </message>
+  <message>
+   <source>Occupied</source>
+   <translation>Belegt</translation>
+  </message>
+  <message>
+   <source>Of all regions, to the inside faces of the walls</source>
+   <translation>Aller Regionen, bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>Of its offset</source>
+   <translation>Ihrer Lage</translation>
+  </message>
+  <message>
+   <source>Of the largest floor or ceiling: a smaller one parts no storeys (a gallery).</source>
+   <translation>Des größten Bodens oder der größten Decke: Kleinere trennen keine Geschosse (eine Galerie).</translation>
+  </message>
+  <message>
+   <source>Of the measured length</source>
+   <translation>Der gemessenen Länge</translation>
+  </message>
+  <message>
+   <source>Offset</source>
+   <translation>Lage</translation>
+  </message>
+  <message>
+   <source>Offset tolerance</source>
+   <translation>Lagetoleranz</translation>
+  </message>
+  <message>
+   <source>Only what was seen</source>
+   <translation>Nur was gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans</source>
+   <translation>Einen Ordner mit Scans öffnen</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans.</source>
+   <translation>Einen Ordner mit Scans öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a point cloud, mesh, run, grid map or project.</source>
+   <translation>Punktwolke, Netz, Fahrt, Rasterkarte oder Projekt öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a survey or project</source>
+   <translation>Aufnahme oder Projekt öffnen</translation>
+  </message>
+  <message>
+   <source>Open a survey to see its points here</source>
+   <translation>Eine Aufnahme öffnen, um hier ihre Punkte zu sehen</translation>
+  </message>
+  <message>
+   <source>Open folder…</source>
+   <translation>Ordner öffnen…</translation>
+  </message>
+  <message>
+   <source>Open in Open3D</source>
+   <translation>In Open3D öffnen</translation>
+  </message>
+  <message>
+   <source>Open recent</source>
+   <translation>Zuletzt geöffnet</translation>
+  </message>
+  <message>
+   <source>Open the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme öffnen</translation>
+  </message>
+  <message>
+   <source>Open {0}</source>
+   <translation>{0} öffnen</translation>
+  </message>
+  <message>
+   <source>Open3D's viewer needs a display with OpenGL, and there is none here; the 3D pane shows the same.</source>
+   <translation>Open3Ds Anzeige braucht einen Bildschirm mit OpenGL, und hier ist keiner; die 3D-Ansicht zeigt dasselbe.</translation>
+  </message>
+  <message>
+   <source>Opening {name}</source>
+   <translation>Öffnung {name}</translation>
+  </message>
+  <message>
+   <source>Open…</source>
+   <translation>Öffnen…</translation>
+  </message>
+  <message>
+   <source>Orbit</source>
+   <translation>Umkreisen</translation>
+  </message>
+  <message>
+   <source>Other face</source>
+   <translation>Andere Seite</translation>
+  </message>
+  <message>
+   <source>Own axes</source>
+   <translation>Eigene Achsen</translation>
+  </message>
+  <message>
+   <source>Own colour</source>
+   <translation>Eigene Farbe</translation>
+  </message>
+  <message>
+   <source>Own size</source>
+   <translation>Eigene Größe</translation>
+  </message>
+  <message>
+   <source>Package</source>
+   <translation>Paket</translation>
+  </message>
+  <message>
+   <source>Page</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Pan</source>
+   <translation>Verschieben</translation>
+  </message>
+  <message>
+   <source>Pane</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Panes</source>
+   <translation>Ansichten</translation>
+  </message>
+  <message>
+   <source>Parts</source>
+   <translation>Teile</translation>
+  </message>
+  <message>
+   <source>Parts narrower than this are not part of a region.</source>
+   <translation>Schmalere Teile gehören zu keiner Region.</translation>
+  </message>
+  <message>
+   <source>Passage opening</source>
+   <translation>Durchgangsverengung</translation>
+  </message>
+  <message>
+   <source>Passage wall</source>
+   <translation>Wandanteil an Durchgängen</translation>
+  </message>
+  <message>
+   <source>Patches of one segment differ less in their offset.</source>
+   <translation>Flecken eines Wandstücks unterscheiden sich weniger in ihrer Lage.</translation>
+  </message>
+  <message>
+   <source>Patches of one surface nearer than this along it are one segment.</source>
+   <translation>Flecken einer Fläche, die näher beieinander liegen, sind ein Wandstück.</translation>
+  </message>
+  <message>
+   <source>Perimeter</source>
+   <translation>Umfang</translation>
+  </message>
+  <message>
+   <source>Picture of a pane</source>
+   <translation>Bild einer Ansicht</translation>
+  </message>
+  <message>
+   <source>Picture of a pane…</source>
+   <translation>Bild einer Ansicht…</translation>
+  </message>
+  <message>
+   <source>Pictures are written as .png, .jpg or .webp (asked: {0}).</source>
+   <translation>Bilder werden als .png, .jpg oder .webp geschrieben (verlangt: {0}).</translation>
+  </message>
+  <message>
+   <source>Plan</source>
+   <translation>Plan</translation>
+  </message>
+  <message>
+   <source>Plan again</source>
+   <translation>Neu planen</translation>
+  </message>
+  <message>
+   <source>Plan less laser meter</source>
+   <translation>Plan minus Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Planarity</source>
+   <translation>Ebenheit</translation>
+  </message>
+  <message>
+   <source>Plane</source>
+   <translation>Ebene</translation>
+  </message>
+  <message>
+   <source>Plane {id} faces {facing}</source>
+   <translation>Ebene {id} weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Planes</source>
+   <translation>Ebenen</translation>
+  </message>
+  <message>
+   <source>Planes are known once there is a plan: points by height</source>
+   <translation>Ebenen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Planes of less observed surface are not paired.</source>
+   <translation>Ebenen mit weniger gesehener Fläche werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Planes that face {facing}</source>
+   <translation>Ebenen, die nach {facing} weisen</translation>
+  </message>
+  <message>
+   <source>Planning</source>
+   <translation>Planen</translation>
+  </message>
+  <message>
+   <source>Play the run</source>
+   <translation>Die Fahrt abspielen</translation>
+  </message>
+  <message>
+   <source>Point clouds, meshes, runs of a robot and occupancy maps</source>
+   <translation>Punktwolken, Netze, Fahrten eines Roboters und Belegungskarten</translation>
+  </message>
+  <message>
+   <source>Points</source>
+   <translation>Punkte</translation>
+  </message>
+  <message>
+   <source>Points above are left out of the histogram (paper: 2 m).</source>
+   <translation>Punkte darüber fehlen im Histogramm (Artikel: 2 m).</translation>
+  </message>
+  <message>
+   <source>Points above this height are not drawn in 3D</source>
+   <translation>Punkte über dieser Höhe werden in 3D nicht gezeichnet</translation>
+  </message>
+  <message>
+   <source>Points are not coloured by {0}; choose: {1}.</source>
+   <translation>Punkte werden nicht nach {0} gefärbt; zur Wahl stehen: {1}.</translation>
+  </message>
+  <message>
+   <source>Points by facing</source>
+   <translation>Punkte nach Richtung</translation>
+  </message>
+  <message>
+   <source>Points by height</source>
+   <translation>Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Points by intensity</source>
+   <translation>Punkte nach Intensität</translation>
+  </message>
+  <message>
+   <source>Points by its own colour</source>
+   <translation>Punkte in eigener Farbe</translation>
+  </message>
+  <message>
+   <source>Points by plane</source>
+   <translation>Punkte nach Ebene</translation>
+  </message>
+  <message>
+   <source>Points by {0}</source>
+   <translation>Punkte nach {0}</translation>
+  </message>
+  <message>
+   <source>Points farther from their sensor are dropped.</source>
+   <translation>Punkte, die weiter vom Sensor entfernt sind, entfallen.</translation>
+  </message>
+  <message>
+   <source>Points nearer to their sensor are dropped.</source>
+   <translation>Punkte, die näher am Sensor liegen, entfallen.</translation>
+  </message>
+  <message>
+   <source>Predicted</source>
+   <translation>Vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Presets</source>
+   <translation>Vorgaben</translation>
+  </message>
+  <message>
+   <source>Quit</source>
+   <translation>Beenden</translation>
+  </message>
+  <message>
+   <source>Rays crossed the wall here</source>
+   <translation>Strahlen gingen hier durch die Wand</translation>
+  </message>
+  <message>
+   <source>Rays through a voxel that make it free.</source>
+   <translation>Strahlen durch ein Voxel, die es frei machen.</translation>
+  </message>
+  <message>
+   <source>Read the survey once more and plan it from nothing.</source>
+   <translation>Die Aufnahme noch einmal lesen und von Grund auf planen.</translation>
+  </message>
+  <message>
+   <source>Reading points</source>
+   <translation>Punkte lesen</translation>
+  </message>
+  <message>
+   <source>Reading {0}</source>
+   <translation>{0} lesen</translation>
+  </message>
+  <message>
+   <source>Reading {count} points so far</source>
+   <translation>Bisher {count} Punkte gelesen</translation>
+  </message>
+  <message>
+   <source>Recent</source>
+   <translation>Zuletzt</translation>
+  </message>
+  <message>
+   <source>Recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>Recover</source>
+   <translation>Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>Rectangles</source>
+   <translation>Rechtecke</translation>
+  </message>
+  <message>
+   <source>Rectangles of more total cells a free cell are pruned; what only they cover is reported.</source>
+   <translation>Rechtecke mit mehr Zellen je freier Zelle entfallen; was nur sie überdecken, wird gemeldet.</translation>
+  </message>
+  <message>
+   <source>Redo</source>
+   <translation>Wiederholen</translation>
+  </message>
+  <message>
+   <source>Region {name}</source>
+   <translation>Region {name}</translation>
+  </message>
+  <message>
+   <source>Regions</source>
+   <translation>Regionen</translation>
+  </message>
+  <message>
+   <source>Regions of more total cells a free cell are dropped (paper: 1000).</source>
+   <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
+  </message>
+  <message>
+   <source>Regions, doors, planes</source>
+   <translation>Regionen, Türen, Ebenen</translation>
+  </message>
+  <message>
+   <source>Regions: connected unions of chosen rectangles.</source>
+   <translation>Regionen: zusammenhängende Vereinigungen gewählter Rechtecke.</translation>
+  </message>
+  <message>
+   <source>Reject door</source>
+   <translation>Tür verwerfen</translation>
+  </message>
+  <message>
+   <source>Reject {0}</source>
+   <translation>{0} verwerfen</translation>
+  </message>
+  <message>
+   <source>Relabel region</source>
+   <translation>Region bezeichnen</translation>
+  </message>
+  <message>
+   <source>Relabel region…</source>
+   <translation>Region bezeichnen…</translation>
+  </message>
+  <message>
+   <source>Release</source>
+   <translation>Freigeben</translation>
+  </message>
+  <message>
+   <source>Release {0}</source>
+   <translation>{0} freigeben</translation>
+  </message>
+  <message>
+   <source>Remove the measurement</source>
+   <translation>Messung entfernen</translation>
+  </message>
+  <message>
+   <source>Remove {0}</source>
+   <translation>{0} entfernen</translation>
+  </message>
+  <message>
+   <source>Rename region</source>
+   <translation>Region umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region {0} to {1}</source>
+   <translation>Region {0} in {1} umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region…</source>
+   <translation>Region umbenennen…</translation>
+  </message>
+  <message>
+   <source>Replay the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Replaying the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Reset all settings</source>
+   <translation>Alle Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Reset settings</source>
+   <translation>Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Residual</source>
+   <translation>Restabweichung</translation>
+  </message>
+  <message>
+   <source>Resize door…</source>
+   <translation>Türbreite ändern…</translation>
+  </message>
+  <message>
+   <source>Resize it</source>
+   <translation>Ändert ihre Breite</translation>
+  </message>
+  <message>
+   <source>Resized by hand</source>
+   <translation>Breite von Hand geändert</translation>
+  </message>
+  <message>
+   <source>Right click</source>
+   <translation>Rechtsklick</translation>
+  </message>
+  <message>
+   <source>Risk</source>
+   <translation>Risiko</translation>
+  </message>
+  <message>
+   <source>Room or corridor, by perimeter and turning distance</source>
+   <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room, corridor or any other word</source>
+   <translation>Room, corridor oder ein anderes Wort</translation>
+  </message>
+  <message>
+   <source>Room, corridor, or a word of your own.</source>
+   <translation>Room, corridor oder ein eigenes Wort.</translation>
+  </message>
+  <message>
+   <source>Rooms and corridors.</source>
+   <translation>Räume und Flure.</translation>
+  </message>
+  <message>
+   <source>Run</source>
+   <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>Save</source>
+   <translation>Speichern</translation>
+  </message>
+  <message>
+   <source>Save as…</source>
+   <translation>Speichern unter…</translation>
+  </message>
+  <message>
+   <source>Save the picture</source>
+   <translation>Das Bild speichern</translation>
+  </message>
+  <message>
+   <source>Save the project</source>
+   <translation>Das Projekt speichern</translation>
+  </message>
+  <message>
+   <source>Save the project under another name.</source>
+   <translation>Das Projekt unter anderem Namen speichern.</translation>
+  </message>
+  <message>
+   <source>Save the project: survey by reference, settings, corrections, checks, view.</source>
+   <translation>Das Projekt speichern: Verweis auf die Aufnahme, Einstellungen, Korrekturen, Messungen, Ansicht.</translation>
+  </message>
+  <message>
+   <source>Save the session as a script</source>
+   <translation>Die Sitzung als Skript speichern</translation>
+  </message>
+  <message>
+   <source>Save the session as a script…</source>
+   <translation>Sitzung als Skript speichern…</translation>
+  </message>
+  <message>
+   <source>Saved {0}.</source>
+   <translation>{0} gespeichert.</translation>
+  </message>
+  <message>
+   <source>Save…</source>
+   <translation>Speichern…</translation>
+  </message>
+  <message>
+   <source>Say where the survey of this project lies now.</source>
+   <translation>Sagen, wo die Aufnahme dieses Projekts jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>Screen</source>
+   <translation>Bildschirm</translation>
+  </message>
+  <message>
+   <source>Search settings</source>
+   <translation>Einstellungen durchsuchen</translation>
+  </message>
+  <message>
+   <source>Section box</source>
+   <translation>Schnittquader</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan every 20 s of run time.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: alle 20 s der Fahrt ein Plan.</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan for every 20 s of the run.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: ein Plan für je 20 s der Fahrt.</translation>
+  </message>
+  <message>
+   <source>Seen</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Segment</source>
+   <translation>Wandstück</translation>
+  </message>
+  <message>
+   <source>Segment {name}</source>
+   <translation>Wandstück {name}</translation>
+  </message>
+  <message>
+   <source>Segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Segments of less observed surface are dropped.</source>
+   <translation>Wandstücke mit weniger gesehener Fläche entfallen.</translation>
+  </message>
+  <message>
+   <source>Select</source>
+   <translation>Wählen</translation>
+  </message>
+  <message>
+   <source>Select a measurement first; then it can be removed.</source>
+   <translation>Zuerst eine Messung wählen; dann lässt sie sich entfernen.</translation>
+  </message>
+  <message>
+   <source>Select a wall or a door.</source>
+   <translation>Eine Wand oder eine Tür wählen.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a check first; regions are merged, not deleted.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Messung wählen; Regionen werden vereint, nicht gelöscht.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a region first.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Region wählen.</translation>
+  </message>
+  <message>
+   <source>Select by name</source>
+   <translation>Nach Namen wählen</translation>
+  </message>
+  <message>
+   <source>Select nothing</source>
+   <translation>Nichts wählen</translation>
+  </message>
+  <message>
+   <source>Select something first; then it can be brought into view.</source>
+   <translation>Zuerst etwas wählen; dann lässt es sich ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Select {0} {1}{2} first.</source>
+   <translation>Zuerst {0} {1}{2} wählen.</translation>
+  </message>
+  <message>
+   <source>Select; with Ctrl add to the selection</source>
+   <translation>Wählt; mit Strg kommt es zur Auswahl hinzu</translation>
+  </message>
+  <message>
+   <source>Selection</source>
+   <translation>Auswahl</translation>
+  </message>
+  <message>
+   <source>Set a measured length…</source>
+   <translation>Gemessene Länge setzen…</translation>
+  </message>
+  <message>
+   <source>Set cover of the free space, then connected unions</source>
+   <translation>Überdeckung des Freiraums, dann zusammenhängende Vereinigungen</translation>
+  </message>
+  <message>
+   <source>Set the view…</source>
+   <translation>Ansicht einstellen…</translation>
+  </message>
+  <message>
+   <source>Set {0} to {1}</source>
+   <translation>{0} auf {1} setzen</translation>
+  </message>
+  <message>
+   <source>Setting: {name}</source>
+   <translation>Einstellung: {name}</translation>
+  </message>
+  <message>
+   <source>Setting: {stage}: {name}</source>
+   <translation>Einstellung: {stage}: {name}</translation>
+  </message>
+  <message>
+   <source>Settings</source>
+   <translation>Einstellungen</translation>
+  </message>
+  <message>
+   <source>Settings that belong together, with the reason why</source>
+   <translation>Einstellungen, die zusammengehören, mit ihrem Grund</translation>
+  </message>
+  <message>
+   <source>Share of a patch that must lie under seen ceiling or over seen floor.</source>
+   <translation>Anteil eines Flecks, der unter gesehener Decke oder über gesehenem Boden liegen muss.</translation>
+  </message>
+  <message>
+   <source>Share of hits among hits and misses from which a voxel is occupied.</source>
+   <translation>Anteil der Treffer an Treffern und Durchgängen, ab dem ein Voxel belegt ist.</translation>
+  </message>
+  <message>
+   <source>Share of its floor seen free</source>
+   <translation>Anteil ihres Bodens, der frei gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Share of the floor that was seen free; the rest is predicted</source>
+   <translation>Anteil des Bodens, der frei gesehen wurde; der Rest ist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Share of the wall along the two axes</source>
+   <translation>Anteil der Wände längs der beiden Achsen</translation>
+  </message>
+  <message>
+   <source>Share of walls at other angles from which a space gets the map's outline.</source>
+   <translation>Anteil der Wände in anderen Winkeln, ab dem ein Raum den Umriss der Karte bekommt.</translation>
+  </message>
+  <message>
+   <source>Shortcuts</source>
+   <translation>Tastenkürzel</translation>
+  </message>
+  <message>
+   <source>Shortcuts and gestures</source>
+   <translation>Tastenkürzel und Gesten</translation>
+  </message>
+  <message>
+   <source>Shorter segments are dropped.</source>
+   <translation>Kürzere Wandstücke entfallen.</translation>
+  </message>
+  <message>
+   <source>Shorter sides are pruned (paper: 1 m).</source>
+   <translation>Kürzere Seiten entfallen (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Show</source>
+   <translation>Zeigen</translation>
+  </message>
+  <message>
+   <source>Show a pane…</source>
+   <translation>Ansicht zeigen…</translation>
+  </message>
+  <message>
+   <source>Show it in the panes</source>
+   <translation>In den Ansichten zeigen</translation>
+  </message>
+  <message>
+   <source>Show lengths and areas in feet and inches.</source>
+   <translation>Längen und Flächen in Fuß und Zoll zeigen.</translation>
+  </message>
+  <message>
+   <source>Show or hide</source>
+   <translation>Zeigen oder ausblenden</translation>
+  </message>
+  <message>
+   <source>Show or hide: dimensions.</source>
+   <translation>Zeigen oder ausblenden: Maße.</translation>
+  </message>
+  <message>
+   <source>Show or hide: doors.</source>
+   <translation>Zeigen oder ausblenden: Türen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: free space.</source>
+   <translation>Zeigen oder ausblenden: Freiraum.</translation>
+  </message>
+  <message>
+   <source>Show or hide: planes.</source>
+   <translation>Zeigen oder ausblenden: Ebenen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: points.</source>
+   <translation>Zeigen oder ausblenden: Punkte.</translation>
+  </message>
+  <message>
+   <source>Show or hide: regions.</source>
+   <translation>Zeigen oder ausblenden: Regionen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: trajectory.</source>
+   <translation>Zeigen oder ausblenden: Weg.</translation>
+  </message>
+  <message>
+   <source>Show or hide: {0}.</source>
+   <translation>Zeigen oder ausblenden: {0}.</translation>
+  </message>
+  <message>
+   <source>Show the evidence on the other face of the wall</source>
+   <translation>Die Belege auf der anderen Seite der Wand zeigen</translation>
+  </message>
+  <message>
+   <source>Side</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Side of a voxel of the occupancy map (paper: 0.1 m).</source>
+   <translation>Seite eines Voxels der Belegungskarte (Artikel: 0,1 m).</translation>
+  </message>
+  <message>
+   <source>Side of the window in which the direction of a surface is fitted.</source>
+   <translation>Seite des Fensters, in dem die Richtung einer Fläche bestimmt wird.</translation>
+  </message>
+  <message>
+   <source>Sides along which less than half was seen; they are dashed</source>
+   <translation>Seiten, von denen weniger als die Hälfte gesehen wurde; sie sind gestrichelt</translation>
+  </message>
+  <message>
+   <source>Size</source>
+   <translation>Größe</translation>
+  </message>
+  <message>
+   <source>Slice height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Sliver</source>
+   <translation>Splitter</translation>
+  </message>
+  <message>
+   <source>Smaller enclosed spaces are dropped.</source>
+   <translation>Kleinere umschlossene Räume entfallen.</translation>
+  </message>
+  <message>
+   <source>Smaller isolated objects are furniture, whatever their shape.</source>
+   <translation>Kleinere freistehende Objekte sind Möbel, welche Form sie auch haben.</translation>
+  </message>
+  <message>
+   <source>Smaller patches of free cells do not drive the cover.</source>
+   <translation>Kleinere Flecken freier Zellen treiben die Überdeckung nicht an.</translation>
+  </message>
+  <message>
+   <source>Smaller regions are dropped.</source>
+   <translation>Kleinere Regionen entfallen.</translation>
+  </message>
+  <message>
+   <source>Smallest response of the matched filter, 1 being a clean aperture.</source>
+   <translation>Kleinste Antwort des angepassten Filters; 1 ist eine saubere Öffnung.</translation>
+  </message>
+  <message>
+   <source>Smoothing</source>
+   <translation>Glättung</translation>
+  </message>
+  <message>
+   <source>Solver</source>
+   <translation>Löser</translation>
+  </message>
+  <message>
+   <source>Speak English from the next start on.</source>
+   <translation>Ab dem nächsten Start Englisch sprechen.</translation>
+  </message>
+  <message>
+   <source>Speak German from the next start on.</source>
+   <translation>Ab dem nächsten Start Deutsch sprechen.</translation>
+  </message>
+  <message>
+   <source>Split</source>
+   <translation>Teilen</translation>
+  </message>
+  <message>
+   <source>Split by hand</source>
+   <translation>Von Hand geteilt</translation>
+  </message>
+  <message>
+   <source>Split region</source>
+   <translation>Region teilen</translation>
+  </message>
+  <message>
+   <source>Stage</source>
+   <translation>Schritt</translation>
+  </message>
+  <message>
+   <source>Standard deviation of the Gaussian whose derivative gives the gradient.</source>
+   <translation>Standardabweichung der Gaußkurve, deren Ableitung den Gradienten gibt.</translation>
+  </message>
+  <message>
+   <source>Standard error</source>
+   <translation>Standardfehler</translation>
+  </message>
+  <message>
+   <source>Step of the search for the sharpest walls.</source>
+   <translation>Schrittweite der Suche nach den schärfsten Wänden.</translation>
+  </message>
+  <message>
+   <source>Stop what runs; the last plan stays.</source>
+   <translation>Anhalten, was läuft; der letzte Plan bleibt.</translation>
+  </message>
+  <message>
+   <source>Storeys</source>
+   <translation>Geschosse</translation>
+  </message>
+  <message>
+   <source>Storeys of one survey, from its floors and ceilings.</source>
+   <translation>Geschosse einer Aufnahme, aus ihren Böden und Decken.</translation>
+  </message>
+  <message>
+   <source>Support</source>
+   <translation>Stützung</translation>
+  </message>
+  <message>
+   <source>Surface</source>
+   <translation>Oberfläche</translation>
+  </message>
+  <message>
+   <source>Surface that was observed</source>
+   <translation>Fläche, die gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Surfaces at most this deep behind a wall of the same facing are its recesses, not paired.</source>
+   <translation>Flächen, die höchstens so tief hinter einer Wand gleicher Richtung liegen, sind deren Nischen und werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Surfaces this near to a plane are the same wall: its other face, frames, leaves.</source>
+   <translation>Flächen, die einer Ebene so nahe sind, sind dieselbe Wand: ihre andere Seite, Rahmen, Türblätter.</translation>
+  </message>
+  <message>
+   <source>Surveys and projects</source>
+   <translation>Aufnahmen und Projekte</translation>
+  </message>
+  <message>
+   <source>Switch off {0}</source>
+   <translation>{0} ausschalten</translation>
+  </message>
+  <message>
+   <source>Switch the selected wall off, reject the selected door, remove the selected check.</source>
+   <translation>Die gewählte Wand ausschalten, die gewählte Tür verwerfen, die gewählte Messung entfernen.</translation>
+  </message>
+  <message>
+   <source>Switch wall off</source>
+   <translation>Wand ausschalten</translation>
+  </message>
+  <message>
+   <source>Switched off by hand</source>
+   <translation>Von Hand ausgeschaltet</translation>
+  </message>
+  <message>
+   <source>Take back all corrections</source>
+   <translation>Alle Korrekturen zurücknehmen</translation>
+  </message>
+  <message>
+   <source>Take back all that was said of it by hand: the machine decides again.</source>
+   <translation>Alles zurücknehmen, was von Hand darüber gesagt wurde: Das Programm entscheidet wieder.</translation>
+  </message>
+  <message>
+   <source>Take the last step back; there is no limit.</source>
+   <translation>Den letzten Schritt zurücknehmen; ohne Grenze.</translation>
+  </message>
+  <message>
+   <source>Take the selected row out of the ground-truth table.</source>
+   <translation>Die gewählte Zeile aus der Kontrolltabelle nehmen.</translation>
+  </message>
+  <message>
+   <source>Taken for</source>
+   <translation>Gehalten für</translation>
+  </message>
+  <message>
+   <source>The best cover by integer programming instead of the greedy one; slower, rarely different.</source>
+   <translation>Die beste Überdeckung durch ganzzahlige Optimierung statt der gierigen; langsamer, selten anders.</translation>
+  </message>
+  <message>
+   <source>The corrections made since the last save would be lost.</source>
+   <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
+  </message>
+  <message>
+   <source>The fewest planes that explain all segments</source>
+   <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
+  </message>
+  <message>
+   <source>The file's axes are left-handed; its plan would come out mirrored otherwise.</source>
+   <translation>Die Achsen der Datei sind linkshändig; ihr Plan erschiene sonst gespiegelt.</translation>
+  </message>
+  <message>
+   <source>The file's up axis.</source>
+   <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan as a picture into the clipboard.</source>
+   <translation>Den Grundriss als Bild in die Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The floor plan large.</source>
+   <translation>Der Grundriss groß.</translation>
+  </message>
+  <message>
+   <source>The height at which most free space was seen</source>
+   <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The look has no such field ({0}).</source>
+   <translation>Die Ansicht hat kein solches Feld ({0}).</translation>
+  </message>
+  <message>
+   <source>The machine had said: {said}</source>
+   <translation>Das Programm hatte gesagt: {said}</translation>
+  </message>
+  <message>
+   <source>The minimum set of layout planes.</source>
+   <translation>Die kleinste Menge von Wandebenen.</translation>
+  </message>
+  <message>
+   <source>The numbers that the paper states, to compare with its figures. Doors of 0.8 to 1.2 m only.</source>
+   <translation>Die Zahlen, die der Artikel nennt, zum Vergleich mit seinen Bildern. Nur Türen von 0,8 bis 1,2 m.</translation>
+  </message>
+  <message>
+   <source>The package brings no text of its licence ({licence}).</source>
+   <translation>Das Paket bringt keinen Text seiner Lizenz mit ({licence}).</translation>
+  </message>
+  <message>
+   <source>The picture is in the clipboard.</source>
+   <translation>Das Bild ist in der Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The plan as the machine made it; undo brings your corrections back.</source>
+   <translation>Der Plan, wie das Programm ihn gemacht hat; Rückgängig bringt die Korrekturen wieder.</translation>
+  </message>
+  <message>
+   <source>The ratio of widths for a passage.</source>
+   <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The regions on its two sides</source>
+   <translation>Die Regionen auf ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>The same for what is left uncovered and closed by speculated planes.</source>
+   <translation>Dasselbe für das, was unbedeckt bleibt und durch vermutete Ebenen geschlossen wird.</translation>
+  </message>
+  <message>
+   <source>The same scene in Open3D's own viewer.</source>
+   <translation>Dieselbe Szene in Open3Ds eigener Anzeige.</translation>
+  </message>
+  <message>
+   <source>The script {0} does not exist.</source>
+   <translation>Das Skript {0} gibt es nicht.</translation>
+  </message>
+  <message>
+   <source>The sensor looked over it: there is air above</source>
+   <translation>Der Sensor sah darüber hinweg: Oben ist Luft</translation>
+  </message>
+  <message>
+   <source>The sensor went through it</source>
+   <translation>Der Sensor ging hindurch</translation>
+  </message>
+  <message>
+   <source>The share of wall for a passage.</source>
+   <translation>Der Wandanteil für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The slice of the voxel map that gives the universe F_h.</source>
+   <translation>Der Schnitt der Voxelkarte, der die Grundmenge F_h gibt.</translation>
+  </message>
+  <message>
+   <source>The timeline large.</source>
+   <translation>Die Zeitleiste groß.</translation>
+  </message>
+  <message>
+   <source>The two points of a measurement are the same; give two different ones.</source>
+   <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>There is a region {0} already.</source>
+   <translation>Es gibt schon eine Region {0}.</translation>
+  </message>
+  <message>
+   <source>There is no action {0}; the actions are: {1}.</source>
+   <translation>Es gibt keinen Befehl {0}; die Befehle sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no dialog {0}.</source>
+   <translation>Es gibt keinen Dialog {0}.</translation>
+  </message>
+  <message>
+   <source>There is no display to open a window on; 'floorcast gui --script FILE' needs none.</source>
+   <translation>Es gibt keinen Bildschirm für ein Fenster; „floorcast gui --script DATEI“ braucht keinen.</translation>
+  </message>
+  <message>
+   <source>There is no language {0}; there are: {1}.</source>
+   <translation>Es gibt keine Sprache {0}; es gibt: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no layer {0}; the layers are: {1}.</source>
+   <translation>Es gibt keinen Layer {0}; die Layer sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no measurement {0}; the measurements are: {1}.</source>
+   <translation>Es gibt keine Messung {0}; die Messungen sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no pane {0}; the panes are: {1}.</source>
+   <translation>Es gibt keine Ansicht {0}; die Ansichten sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no plan to show in Open3D yet; open a survey first.</source>
+   <translation>Es gibt noch keinen Plan für Open3D; bitte zuerst eine Aufnahme öffnen.</translation>
+  </message>
+  <message>
+   <source>There is no plan yet.</source>
+   <translation>Es gibt noch keinen Plan.</translation>
+  </message>
+  <message>
+   <source>There is no setting {0}; 'floorcast settings' lists them.</source>
+   <translation>Es gibt keine Einstellung {0}; „floorcast settings“ nennt alle.</translation>
+  </message>
+  <message>
+   <source>There is no step {0}: the history has the steps 0 to {1}.</source>
+   <translation>Es gibt keinen Schritt {0}: Der Verlauf hat die Schritte 0 bis {1}.</translation>
+  </message>
+  <message>
+   <source>There is no survey to look for.</source>
+   <translation>Es gibt keine Aufnahme zu suchen.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1} in this plan.</source>
+   <translation>Es gibt kein {0} {1} in diesem Plan.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1}.</source>
+   <translation>Es gibt kein {0} {1}.</translation>
+  </message>
+  <message>
+   <source>Thickness between its two faces</source>
+   <translation>Dicke zwischen ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>This survey does not say when its points were measured.</source>
+   <translation>Diese Aufnahme sagt nicht, wann ihre Punkte gemessen wurden.</translation>
+  </message>
+  <message>
+   <source>This survey holds no colour: points by height</source>
+   <translation>Diese Aufnahme hat keine Farben: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>This survey holds no intensity: points by height</source>
+   <translation>Diese Aufnahme hat keine Intensität: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Time</source>
+   <translation>Zeit</translation>
+  </message>
+  <message>
+   <source>Time limit</source>
+   <translation>Zeitgrenze</translation>
+  </message>
+  <message>
+   <source>Timeline</source>
+   <translation>Zeitleiste</translation>
+  </message>
+  <message>
+   <source>To</source>
+   <translation>Bis</translation>
+  </message>
+  <message>
+   <source>To the inside faces of the walls</source>
+   <translation>Bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>To the unit square: a corridor where it is over the limit</source>
+   <translation>Zum Einheitsquadrat: ein Flur, wo er über der Grenze liegt</translation>
+  </message>
+  <message>
+   <source>Tolerance</source>
+   <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>Toolbar</source>
+   <translation>Werkzeugleiste</translation>
+  </message>
+  <message>
+   <source>Tools</source>
+   <translation>Werkzeuge</translation>
+  </message>
+  <message>
+   <source>Top</source>
+   <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Trajectory</source>
+   <translation>Weg</translation>
+  </message>
+  <message>
+   <source>Tripod scanner, precise</source>
+   <translation>Standscanner, genau</translation>
+  </message>
+  <message>
+   <source>Try Floorcast on a survey that comes with it.</source>
+   <translation>Floorcast an einer mitgelieferten Aufnahme ausprobieren.</translation>
+  </message>
+  <message>
+   <source>Try the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme</translation>
+  </message>
+  <message>
+   <source>Turn of the walls against the file's axes</source>
+   <translation>Drehung der Wände gegen die Achsen der Datei</translation>
+  </message>
+  <message>
+   <source>Turning</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance to the unit square: how little it is like a room</source>
+   <translation>Drehabstand zum Einheitsquadrat: wie wenig sie einem Raum gleicht</translation>
+  </message>
+  <message>
+   <source>Two clicks across a region cut it in two.</source>
+   <translation>Zwei Klicks quer durch eine Region teilen sie.</translation>
+  </message>
+  <message>
+   <source>Two clicks draw a wall with two faces.</source>
+   <translation>Zwei Klicks zeichnen eine Wand mit zwei Seiten.</translation>
+  </message>
+  <message>
+   <source>Two clicks measure a distance, from wall to wall where both are walls; A measures an area.</source>
+   <translation>Zwei Klicks messen einen Abstand, von Wand zu Wand, wo beides Wände sind; A misst eine Fläche.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall add a door; drag the ends of the selected one.</source>
+   <translation>Zwei Klicks auf eine Wand fügen eine Tür hinzu; die Enden der gewählten lassen sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall, one at each jamb.</source>
+   <translation>Zwei Klicks auf eine Wand, einer an jeder Laibung.</translation>
+  </message>
+  <message>
+   <source>Two clicks: the region between them is cut from side to side.</source>
+   <translation>Zwei Klicks: Die Region dazwischen wird von Seite zu Seite geteilt.</translation>
+  </message>
+  <message>
+   <source>Two faces farther apart than this are not one wall.</source>
+   <translation>Zwei Seiten, die weiter auseinander liegen, sind nicht eine Wand.</translation>
+  </message>
+  <message>
+   <source>Type a command or a setting</source>
+   <translation>Befehl oder Einstellung eingeben</translation>
+  </message>
+  <message>
+   <source>Type some letters of a command or a setting, press Enter.</source>
+   <translation>Einige Buchstaben eines Befehls oder einer Einstellung eingeben, dann Enter.</translation>
+  </message>
+  <message>
+   <source>Type the width of the opening; or drag its ends in a plan.</source>
+   <translation>Die Breite der Öffnung eingeben; oder ihre Enden im Plan ziehen.</translation>
+  </message>
+  <message>
+   <source>Type where it lies; or drag it in a plan, where it snaps to what was seen.</source>
+   <translation>Eingeben, wo sie liegt; oder im Plan ziehen, wo sie an Gesehenem einrastet.</translation>
+  </message>
+  <message>
+   <source>Undo</source>
+   <translation>Rückgängig</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>Einheit</translation>
+  </message>
+  <message>
+   <source>Unit of the file's coordinates; us-ft is the US survey foot.</source>
+   <translation>Einheit der Koordinaten der Datei; us-ft ist der US-Vermessungsfuß.</translation>
+  </message>
+  <message>
+   <source>Unseen stretches between two seen parts of one wall are wall up to this length.</source>
+   <translation>Ungesehene Stücke zwischen zwei gesehenen Teilen einer Wand sind bis zu dieser Länge Wand.</translation>
+  </message>
+  <message>
+   <source>Up</source>
+   <translation>Hochachse</translation>
+  </message>
+  <message>
+   <source>Use</source>
+   <translation>Nehmen</translation>
+  </message>
+  <message>
+   <source>Use a preset…</source>
+   <translation>Vorgabe nehmen…</translation>
+  </message>
+  <message>
+   <source>Use {0}</source>
+   <translation>{0} nehmen</translation>
+  </message>
+  <message>
+   <source>Version</source>
+   <translation>Version</translation>
+  </message>
+  <message>
+   <source>Version and licences.</source>
+   <translation>Version und Lizenzen.</translation>
+  </message>
+  <message>
+   <source>Version {version} · Apache License 2.0</source>
+   <translation>Version {version} · Apache-Lizenz 2.0</translation>
+  </message>
+  <message>
+   <source>View</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Voxel map and surfels.</source>
+   <translation>Voxelkarte und Surfel.</translation>
+  </message>
+  <message>
+   <source>Voxels</source>
+   <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>Wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>Wall depth</source>
+   <translation>Wandtiefe</translation>
+  </message>
+  <message>
+   <source>Wall support</source>
+   <translation>Wandstützung</translation>
+  </message>
+  <message>
+   <source>Wall was seen above it</source>
+   <translation>Darüber wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on both sides of it</source>
+   <translation>Auf beiden Seiten wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on one side of it, the other is a corner</source>
+   <translation>Auf einer Seite wurde Wand gesehen, die andere ist eine Ecke</translation>
+  </message>
+  <message>
+   <source>Wall {name}, faces {facing}</source>
+   <translation>Wand {name}, weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Walls and doors this near to a side do not lie in the interior.</source>
+   <translation>Wände und Türen, die einer Seite so nahe sind, liegen nicht im Inneren.</translation>
+  </message>
+  <message>
+   <source>Walls of a hand-held depth camera scatter by centimetres and bend; wider tolerances keep one wall one plane.</source>
+   <translation>Wände aus einer handgeführten Tiefenkamera streuen um Zentimeter und biegen sich; weitere Toleranzen halten eine Wand in einer Ebene.</translation>
+  </message>
+  <message>
+   <source>Walls of more observed surface than this never lie inside a region.</source>
+   <translation>Wände mit mehr gesehener Fläche liegen nie im Inneren einer Region.</translation>
+  </message>
+  <message>
+   <source>Warnings</source>
+   <translation>Warnungen</translation>
+  </message>
+  <message>
+   <source>Warnings ({n})</source>
+   <translation>Warnungen ({n})</translation>
+  </message>
+  <message>
+   <source>Weighted set cover of the free space.</source>
+   <translation>Gewichtete Überdeckung des Freiraums.</translation>
+  </message>
+  <message>
+   <source>What can be done with it</source>
+   <translation>Was sich damit tun lässt</translation>
+  </message>
+  <message>
+   <source>What it is</source>
+   <translation>Was es ist</translation>
+  </message>
+  <message>
+   <source>What it is made of</source>
+   <translation>Woraus sie besteht</translation>
+  </message>
+  <message>
+   <source>What the laser meter said.</source>
+   <translation>Was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>What the laser meter said: double-click and type, like 3.2, 320 cm or 10' 6"</source>
+   <translation>Was das Lasermessgerät sagte: doppelklicken und eingeben, etwa 3,2 oder 320 cm oder 10' 6"</translation>
+  </message>
+  <message>
+   <source>What the points are coloured by</source>
+   <translation>Wonach die Punkte gefärbt sind</translation>
+  </message>
+  <message>
+   <source>Wheel</source>
+   <translation>Mausrad</translation>
+  </message>
+  <message>
+   <source>Where is {0}?</source>
+   <translation>Wo ist {0}?</translation>
+  </message>
+  <message>
+   <source>Whole survey</source>
+   <translation>Ganze Aufnahme</translation>
+  </message>
+  <message>
+   <source>Whole window</source>
+   <translation>Ganzes Fenster</translation>
+  </message>
+  <message>
+   <source>Why it is there</source>
+   <translation>Warum es da ist</translation>
+  </message>
+  <message>
+   <source>Wider openings are no doors but openings (paper: 1.2 m).</source>
+   <translation>Breitere Öffnungen sind keine Türen, sondern Öffnungen (Artikel: 1,2 m).</translation>
+  </message>
+  <message>
+   <source>Widest aperture that is taken for a door.</source>
+   <translation>Breiteste Öffnung, die als Tür gilt.</translation>
+  </message>
+  <message>
+   <source>Widest gap in a wall that still parts two rooms.</source>
+   <translation>Breiteste Lücke in einer Wand, die noch zwei Räume trennt.</translation>
+  </message>
+  <message>
+   <source>Widest opening below a lintel that still separates two regions.</source>
+   <translation>Breiteste Öffnung unter einem Sturz, die noch zwei Regionen trennt.</translation>
+  </message>
+  <message>
+   <source>Width</source>
+   <translation>Breite</translation>
+  </message>
+  <message>
+   <source>Width of a histogram bin.</source>
+   <translation>Breite einer Klasse des Histogramms.</translation>
+  </message>
+  <message>
+   <source>Width that the filter is matched to (paper: 1 m).</source>
+   <translation>Breite, an die das Filter angepasst ist (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Window</source>
+   <translation>Fenster</translation>
+  </message>
+  <message>
+   <source>Worst side</source>
+   <translation>Schlechteste Seite</translation>
+  </message>
+  <message>
+   <source>Write the plan as SVG, GeoJSON, PNG or another format.</source>
+   <translation>Den Plan als SVG, GeoJSON, PNG oder in anderem Format schreiben.</translation>
+  </message>
+  <message>
+   <source>Write what was done as a list of actions that 'floorcast gui --script' runs again.</source>
+   <translation>Schreiben, was getan wurde, als Liste von Befehlen, die „floorcast gui --script“ wieder ausführt.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}.</source>
+   <translation>{0} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}; run it with: floorcast gui --script {1}</source>
+   <translation>{0} geschrieben; ausführen mit: floorcast gui --script {1}</translation>
+  </message>
+  <message>
+   <source>Wrote {name}.</source>
+   <translation>{name} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Yaw</source>
+   <translation>Drehung</translation>
+  </message>
+  <message>
+   <source>Yaw step</source>
+   <translation>Schritt der Drehung</translation>
+  </message>
+  <message>
+   <source>Zoom to it</source>
+   <translation>Heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to selection</source>
+   <translation>Auswahl heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to the pointer</source>
+   <translation>Zoomt zum Zeiger</translation>
+  </message>
+  <message>
+   <source>and {n} more</source>
+   <translation>und {n} weitere</translation>
+  </message>
+  <message>
+   <source>auto</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>comes as {value}</source>
+   <translation>geliefert: {value}</translation>
+  </message>
+  <message>
+   <source>corridor</source>
+   <translation>Flur</translation>
+  </message>
+  <message>
+   <source>door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>east</source>
+   <translation>Osten</translation>
+  </message>
+  <message>
+   <source>exact</source>
+   <translation>exakt</translation>
+  </message>
+  <message>
+   <source>frame {yaw} (support {share})</source>
+   <translation>Achsen {yaw} (Stützung {share})</translation>
+  </message>
+  <message>
+   <source>furniture</source>
+   <translation>Möbel</translation>
+  </message>
+  <message>
+   <source>greedy</source>
+   <translation>gierig</translation>
+  </message>
+  <message>
+   <source>greedy (paper) or exact (integer program, HiGHS).</source>
+   <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>mostly predicted</source>
+   <translation>meist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>no plan yet</source>
+   <translation>noch kein Plan</translation>
+  </message>
+  <message>
+   <source>north</source>
+   <translation>Norden</translation>
+  </message>
+  <message>
+   <source>opening</source>
+   <translation>Öffnung</translation>
+  </message>
+  <message>
+   <source>path {length}</source>
+   <translation>Weg {length}</translation>
+  </message>
+  <message>
+   <source>predicted</source>
+   <translation>vorhergesagt</translation>
+  </message>
+  <message>
+   <source>predicted {area}</source>
+   <translation>vorhergesagt {area}</translation>
+  </message>
+  <message>
+   <source>ready in {time}</source>
+   <translation>fertig in {time}</translation>
+  </message>
+  <message>
+   <source>recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>region</source>
+   <translation>Region</translation>
+  </message>
+  <message>
+   <source>regions {n}</source>
+   <translation>Regionen {n}</translation>
+  </message>
+  <message>
+   <source>room</source>
+   <translation>Raum</translation>
+  </message>
+  <message>
+   <source>seen {area}</source>
+   <translation>gesehen {area}</translation>
+  </message>
+  <message>
+   <source>south</source>
+   <translation>Süden</translation>
+  </message>
+  <message>
+   <source>type it here</source>
+   <translation>hier eingeben</translation>
+  </message>
+  <message>
+   <source>unit as guessed</source>
+   <translation>Einheit wie vermutet</translation>
+  </message>
+  <message>
+   <source>up axis as guessed</source>
+   <translation>Hochachse wie vermutet</translation>
+  </message>
+  <message>
+   <source>wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>west</source>
+   <translation>Westen</translation>
+  </message>
+  <message>
+   <source>worse than every LOA band</source>
+   <translation>schlechter als jede LOA-Klasse</translation>
+  </message>
+  <message>
+   <source>x from</source>
+   <translation>x von</translation>
+  </message>
+  <message>
+   <source>x to</source>
+   <translation>x bis</translation>
+  </message>
+  <message>
+   <source>y from</source>
+   <translation>y von</translation>
+  </message>
+  <message>
+   <source>y to</source>
+   <translation>y bis</translation>
+  </message>
+  <message>
+   <source>{0} ({1}) is not possible now.</source>
+   <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
+  </message>
+  <message>
+   <source>{0} failed: {1}: {2}.</source>
+   <translation>{0} ist gescheitert: {1}: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is no length; type one like 3.2, 320 cm or 10' 6".</source>
+   <translation>{0} ist keine Länge; möglich ist etwa 3,2 oder 320 cm oder 10' 6".</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions ({1}).</source>
+   <translation>{0} ist keine Liste von Befehlen ({1}).</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions like {"action": "file.open", "path": …}.</source>
+   <translation>{0} ist keine Liste von Befehlen wie {"action": "file.open", "path": …}.</translation>
+  </message>
+  <message>
+   <source>{0} is not a number of metres, like 3.412.</source>
+   <translation>{0} ist keine Zahl von Metern wie 3.412.</translation>
+  </message>
+  <message>
+   <source>{0} is not where it was; say where it lies now.</source>
+   <translation>{0} ist nicht mehr, wo es war; bitte sagen, wo es jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>{0} needs a window.</source>
+   <translation>{0} braucht ein Fenster.</translation>
+  </message>
+  <message>
+   <source>{0}: give it as an argument; there is nobody to ask.</source>
+   <translation>{0}: bitte als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{0}: give the path as an argument; there is nobody to ask.</source>
+   <translation>{0}: den Pfad als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{count} doors</source>
+   <translation>{count} Türen</translation>
+  </message>
+  <message>
+   <source>{free} free of {total}</source>
+   <translation>{free} frei von {total}</translation>
+  </message>
+  <message>
+   <source>{language} from the next start on.</source>
+   <translation>{language} ab dem nächsten Start.</translation>
+  </message>
+  <message>
+   <source>{low} to {high}</source>
+   <translation>{low} bis {high}</translation>
+  </message>
+  <message>
+   <source>{n} of {total}</source>
+   <translation>{n} von {total}</translation>
+  </message>
+  <message>
+   <source>{n} points</source>
+   <translation>{n} Punkte</translation>
+  </message>
+  <message>
+   <source>{n}, of them {rooms} rooms</source>
+   <translation>{n}, davon {rooms} Räume</translation>
+  </message>
+  <message>
+   <source>{planes} planes · {regions} regions · {doors} doors</source>
+   <translation>{planes} Ebenen · {regions} Regionen · {doors} Türen</translation>
+  </message>
+  <message>
+   <source>{share} sure</source>
+   <translation>{share} sicher</translation>
+  </message>
+  <message>
+   <source>{time} left</source>
+   <translation>noch {time}</translation>
+  </message>
+ </context>
+ <context>
+  <name>MainWindow</name>
+  <message>
+   <source>1 door</source>
+   <translation>1 Tür</translation>
+  </message>
+  <message>
+   <source>3D view</source>
+   <translation>3D-Ansicht</translation>
+  </message>
+  <message>
+   <source>95 % of its points lie closer</source>
+   <translation>95 % der Punkte liegen näher</translation>
+  </message>
+  <message>
+   <source>95 % of the points lie closer than this</source>
+   <translation>95 % der Punkte liegen näher als dies</translation>
+  </message>
+  <message>
+   <source>95 % within {band}</source>
+   <translation>95 % innerhalb {band}</translation>
+  </message>
+  <message>
+   <source>A corridor opens into a hall</source>
+   <translation>Ein Flur mündet in eine Halle</translation>
+  </message>
+  <message>
+   <source>A corridor up to this wide ends where it opens into a hall.</source>
+   <translation>Ein Flur bis zu dieser Breite endet, wo er in eine Halle mündet.</translation>
+  </message>
+  <message>
+   <source>A distance between two points.</source>
+   <translation>Ein Abstand zwischen zwei Punkten.</translation>
+  </message>
+  <message>
+   <source>A door cannot be {0} m wide.</source>
+   <translation>Eine Tür kann nicht {0} m breit sein.</translation>
+  </message>
+  <message>
+   <source>A door is a 'door' or an 'opening', not {0}.</source>
+   <translation>Eine Tür ist „door“ oder „opening“, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A door, or an opening: wider, or without a lintel</source>
+   <translation>Eine Tür oder eine Öffnung: breiter oder ohne Sturz</translation>
+  </message>
+  <message>
+   <source>A label is a word, like room or corridor.</source>
+   <translation>Eine Bezeichnung ist ein Wort wie room oder corridor.</translation>
+  </message>
+  <message>
+   <source>A larger turning distance to the square is a corridor (paper: 1).</source>
+   <translation>Ein größerer Drehabstand zum Quadrat ist ein Flur (Artikel: 1).</translation>
+  </message>
+  <message>
+   <source>A lintel less deep is shallow.</source>
+   <translation>Ein Sturz von weniger Tiefe ist flach.</translation>
+  </message>
+  <message>
+   <source>A longer boundary is a corridor (paper: 60 m).</source>
+   <translation>Ein längerer Umriss ist ein Flur (Artikel: 60 m).</translation>
+  </message>
+  <message>
+   <source>A measured length must be above 0 m, not {0}.</source>
+   <translation>Eine gemessene Länge muss über 0 m sein, nicht {0}.</translation>
+  </message>
+  <message>
+   <source>A name must not be empty.</source>
+   <translation>Ein Name darf nicht leer sein.</translation>
+  </message>
+  <message>
+   <source>A normal this near to an axis supports the frame.</source>
+   <translation>Eine Normale, die so nahe an einer Achse liegt, stützt das Achsensystem.</translation>
+  </message>
+  <message>
+   <source>A person says so</source>
+   <translation>Ein Mensch sagt es</translation>
+  </message>
+  <message>
+   <source>A picture has 16 to 16384 pixels a side (asked: {0} x {1}).</source>
+   <translation>Ein Bild hat 16 bis 16384 Pixel je Seite (verlangt: {0} x {1}).</translation>
+  </message>
+  <message>
+   <source>A picture of one pane at any resolution.</source>
+   <translation>Ein Bild einer Ansicht in beliebiger Auflösung.</translation>
+  </message>
+  <message>
+   <source>A place is two numbers in metres, like (1.5, 2.0); given {0}.</source>
+   <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
+  </message>
+  <message>
+   <source>A surface that ends less than this below the ceiling touches it.</source>
+   <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
+  </message>
+  <message>
+   <source>A surface that reaches above this is no furniture.</source>
+   <translation>Eine Fläche, die höher reicht, ist kein Möbel.</translation>
+  </message>
+  <message>
+   <source>A terrestrial scanner sees a wall to millimetres; narrow tolerances tell a recess from its wall.</source>
+   <translation>Ein Standscanner misst eine Wand auf Millimeter; enge Toleranzen trennen eine Nische von ihrer Wand.</translation>
+  </message>
+  <message>
+   <source>A wall of {0} m is no wall: its thickness is between 0 and {1} m.</source>
+   <translation>Eine Wand von {0} m ist keine: Ihre Dicke liegt zwischen 0 und {1} m.</translation>
+  </message>
+  <message>
+   <source>A wider lintel between two walls that go on beyond it is a beam, and separates nothing.</source>
+   <translation>Ein breiterer Sturz zwischen zwei Wänden, die dahinter weitergehen, ist ein Unterzug und trennt nichts.</translation>
+  </message>
+  <message>
+   <source>A3 at 300 dpi</source>
+   <translation>A3 mit 300 dpi</translation>
+  </message>
+  <message>
+   <source>About Floorcast</source>
+   <translation>Über Floorcast</translation>
+  </message>
+  <message>
+   <source>Above the floor</source>
+   <translation>Über dem Boden</translation>
+  </message>
+  <message>
+   <source>Accept door</source>
+   <translation>Tür bestätigen</translation>
+  </message>
+  <message>
+   <source>Accept {0}</source>
+   <translation>{0} bestätigen</translation>
+  </message>
+  <message>
+   <source>Accepted by hand</source>
+   <translation>Von Hand bestätigt</translation>
+  </message>
+  <message>
+   <source>Add a measurement…</source>
+   <translation>Messung hinzufügen…</translation>
+  </message>
+  <message>
+   <source>Add door</source>
+   <translation>Tür hinzufügen</translation>
+  </message>
+  <message>
+   <source>Add wall</source>
+   <translation>Wand hinzufügen</translation>
+  </message>
+  <message>
+   <source>Added by hand</source>
+   <translation>Von Hand hinzugefügt</translation>
+  </message>
+  <message>
+   <source>Agreement</source>
+   <translation>Übereinstimmung</translation>
+  </message>
+  <message>
+   <source>All files</source>
+   <translation>Alle Dateien</translation>
+  </message>
+  <message>
+   <source>All settings as they come.</source>
+   <translation>Alle Einstellungen wie geliefert.</translation>
+  </message>
+  <message>
+   <source>All shortcuts and gestures on one sheet.</source>
+   <translation>Alle Tastenkürzel und Gesten auf einem Blatt.</translation>
+  </message>
+  <message>
+   <source>All steps so far; click one to go back to it.</source>
+   <translation>Alle bisherigen Schritte; ein Klick führt dorthin zurück.</translation>
+  </message>
+  <message>
+   <source>Along the way it faces</source>
+   <translation>In der Richtung, in die sie weist</translation>
+  </message>
+  <message>
+   <source>An observed offset may differ this much from its plane (3 sigma).</source>
+   <translation>So weit darf eine gemessene Lage von ihrer Ebene abweichen (3 Sigma).</translation>
+  </message>
+  <message>
+   <source>Angle</source>
+   <translation>Winkel</translation>
+  </message>
+  <message>
+   <source>Aperture</source>
+   <translation>Öffnungsbreite</translation>
+  </message>
+  <message>
+   <source>Area</source>
+   <translation>Fläche</translation>
+  </message>
+  <message>
+   <source>As in the paper</source>
+   <translation>Wie im Artikel</translation>
+  </message>
+  <message>
+   <source>Auto</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Automatic</source>
+   <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Back to the plan of all that was measured</source>
+   <translation>Zurück zum Plan aus allem, was gemessen wurde</translation>
+  </message>
+  <message>
+   <source>Back to {value}</source>
+   <translation>Zurück auf {value}</translation>
+  </message>
+  <message>
+   <source>Below this share of supporting wall there is no Manhattan frame.</source>
+   <translation>Stützt ein kleinerer Anteil der Wände, gibt es kein Manhattan-Achsensystem.</translation>
+  </message>
+  <message>
+   <source>Bin</source>
+   <translation>Klassenbreite</translation>
+  </message>
+  <message>
+   <source>Bridge</source>
+   <translation>Überbrückung</translation>
+  </message>
+  <message>
+   <source>Bring it into view</source>
+   <translation>Ins Bild holen</translation>
+  </message>
+  <message>
+   <source>Bring one pane to the front.</source>
+   <translation>Eine Ansicht nach vorne holen.</translation>
+  </message>
+  <message>
+   <source>Bring the selected thing into view.</source>
+   <translation>Das Gewählte ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Bring the whole plan into view.</source>
+   <translation>Den ganzen Plan ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>By hand</source>
+   <translation>Von Hand</translation>
+  </message>
+  <message>
+   <source>Camera, ceiling cut and section box by numbers.</source>
+   <translation>Kamera, Deckenschnitt und Schnittquader nach Zahlen.</translation>
+  </message>
+  <message>
+   <source>Cancel</source>
+   <translation>Abbrechen</translation>
+  </message>
+  <message>
+   <source>Cancel (Esc)</source>
+   <translation>Abbrechen (Esc)</translation>
+  </message>
+  <message>
+   <source>Cancel the work, then the gesture, then the selection</source>
+   <translation>Bricht die Arbeit ab, dann die Geste, dann die Auswahl</translation>
+  </message>
+  <message>
+   <source>Cancelled.</source>
+   <translation>Abgebrochen.</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles</source>
+   <translation>Kandidatenrechtecke</translation>
+  </message>
+  <message>
+   <source>Candidate rectangles and their pruning.</source>
+   <translation>Kandidatenrechtecke und ihre Auslese.</translation>
+  </message>
+  <message>
+   <source>Candidates</source>
+   <translation>Kandidaten</translation>
+  </message>
+  <message>
+   <source>Candidates that the greedy cover chose</source>
+   <translation>Kandidaten, die die gierige Überdeckung gewählt hat</translation>
+  </message>
+  <message>
+   <source>Cannot write the picture {0}.</source>
+   <translation>Das Bild {0} kann nicht geschrieben werden.</translation>
+  </message>
+  <message>
+   <source>Ceiling cut</source>
+   <translation>Deckenschnitt</translation>
+  </message>
+  <message>
+   <source>Ceiling gap</source>
+   <translation>Abstand zur Decke</translation>
+  </message>
+  <message>
+   <source>Cell</source>
+   <translation>Zelle</translation>
+  </message>
+  <message>
+   <source>Cells</source>
+   <translation>Zellen</translation>
+  </message>
+  <message>
+   <source>Cells in which normals are fitted.</source>
+   <translation>Zellen, in denen Normalen bestimmt werden.</translation>
+  </message>
+  <message>
+   <source>Change a setting…</source>
+   <translation>Einstellung ändern…</translation>
+  </message>
+  <message>
+   <source>Change one number of the method; only what depends on it is planned again.</source>
+   <translation>Eine Zahl des Verfahrens ändern; nur was davon abhängt, wird neu geplant.</translation>
+  </message>
+  <message>
+   <source>Change several settings in one step.</source>
+   <translation>Mehrere Einstellungen in einem Schritt ändern.</translation>
+  </message>
+  <message>
+   <source>Changed</source>
+   <translation>Geändert</translation>
+  </message>
+  <message>
+   <source>Check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>Check {name}</source>
+   <translation>Messung {name}</translation>
+  </message>
+  <message>
+   <source>Classifier</source>
+   <translation>Klassifikator</translation>
+  </message>
+  <message>
+   <source>Clear the selection (Esc does it, too).</source>
+   <translation>Die Auswahl aufheben (auch mit Esc).</translation>
+  </message>
+  <message>
+   <source>Click</source>
+   <translation>Klick</translation>
+  </message>
+  <message>
+   <source>Click to select, drag what is selected.</source>
+   <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Click two regions that are one.</source>
+   <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Close</source>
+   <translation>Schließen</translation>
+  </message>
+  <message>
+   <source>Close the program.</source>
+   <translation>Das Programm beenden.</translation>
+  </message>
+  <message>
+   <source>Close the survey.</source>
+   <translation>Die Aufnahme schließen.</translation>
+  </message>
+  <message>
+   <source>Close without saving?</source>
+   <translation>Ohne Speichern schließen?</translation>
+  </message>
+  <message>
+   <source>Colour the points by facing.</source>
+   <translation>Die Punkte nach Richtung färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by height.</source>
+   <translation>Die Punkte nach Höhe färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by intensity.</source>
+   <translation>Die Punkte nach Intensität färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by its own colour.</source>
+   <translation>Die Punkte in eigener Farbe zeigen.</translation>
+  </message>
+  <message>
+   <source>Colour the points by plane.</source>
+   <translation>Die Punkte nach Ebene färben.</translation>
+  </message>
+  <message>
+   <source>Colour the points by {0}.</source>
+   <translation>Die Punkte nach {0} färben.</translation>
+  </message>
+  <message>
+   <source>Compact isolated objects up to this size are furniture or columns.</source>
+   <translation>Kompakte freistehende Objekte bis zu dieser Größe sind Möbel oder Stützen.</translation>
+  </message>
+  <message>
+   <source>Confidence</source>
+   <translation>Sicherheit</translation>
+  </message>
+  <message>
+   <source>Copy</source>
+   <translation>Kopieren</translation>
+  </message>
+  <message>
+   <source>Copy picture</source>
+   <translation>Bild kopieren</translation>
+  </message>
+  <message>
+   <source>Corner</source>
+   <translation>Ecke</translation>
+  </message>
+  <message>
+   <source>Correct</source>
+   <translation>Korrigieren</translation>
+  </message>
+  <message>
+   <source>Corrected</source>
+   <translation>Korrigiert</translation>
+  </message>
+  <message>
+   <source>Correction</source>
+   <translation>Korrektur</translation>
+  </message>
+  <message>
+   <source>Cover</source>
+   <translation>Überdeckung</translation>
+  </message>
+  <message>
+   <source>Covering the free space</source>
+   <translation>Freiraum überdecken</translation>
+  </message>
+  <message>
+   <source>Crop height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Dark</source>
+   <translation>Dunkel</translation>
+  </message>
+  <message>
+   <source>Dark colours for dark rooms.</source>
+   <translation>Dunkle Farben für dunkle Räume.</translation>
+  </message>
+  <message>
+   <source>Delete</source>
+   <translation>Löschen</translation>
+  </message>
+  <message>
+   <source>Depth camera, noisy</source>
+   <translation>Tiefenkamera, verrauscht</translation>
+  </message>
+  <message>
+   <source>Deutsch</source>
+   <translation>Deutsch</translation>
+  </message>
+  <message>
+   <source>Dimensions</source>
+   <translation>Maße</translation>
+  </message>
+  <message>
+   <source>Discard</source>
+   <translation>Verwerfen</translation>
+  </message>
+  <message>
+   <source>Dismiss</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Distance between the two points on the plan</source>
+   <translation>Abstand der beiden Punkte im Plan</translation>
+  </message>
+  <message>
+   <source>Do again what was taken back.</source>
+   <translation>Das Zurückgenommene wiederholen.</translation>
+  </message>
+  <message>
+   <source>Door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>Door evidence</source>
+   <translation>Türbelege</translation>
+  </message>
+  <message>
+   <source>Door opening</source>
+   <translation>Türverengung</translation>
+  </message>
+  <message>
+   <source>Door wall</source>
+   <translation>Wandanteil an Türen</translation>
+  </message>
+  <message>
+   <source>Door {name}</source>
+   <translation>Tür {name}</translation>
+  </message>
+  <message>
+   <source>Doors</source>
+   <translation>Türen</translation>
+  </message>
+  <message>
+   <source>Doors by histogram, smoothed gradient and matched filter.</source>
+   <translation>Türen durch Histogramm, geglätteten Gradienten und angepasstes Filter.</translation>
+  </message>
+  <message>
+   <source>Doors that are less probable are not reported.</source>
+   <translation>Weniger wahrscheinliche Türen werden nicht gemeldet.</translation>
+  </message>
+  <message>
+   <source>Double click</source>
+   <translation>Doppelklick</translation>
+  </message>
+  <message>
+   <source>Drag a selected plane or type its offset; two clicks add one.</source>
+   <translation>Eine gewählte Ebene ziehen oder ihre Lage eingeben; zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
+   <source>Drag a selected wall</source>
+   <translation>Eine gewählte Wand ziehen</translation>
+  </message>
+  <message>
+   <source>Drag the end of a selected door</source>
+   <translation>Das Ende einer gewählten Tür ziehen</translation>
+  </message>
+  <message>
+   <source>Draw a wall that the machine does not know: two clicks.</source>
+   <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
+  </message>
+  <message>
+   <source>Drop a survey or a project here</source>
+   <translation>Aufnahme oder Projekt hier ablegen</translation>
+  </message>
+  <message>
+   <source>Edit</source>
+   <translation>Bearbeiten</translation>
+  </message>
+  <message>
+   <source>English</source>
+   <translation>English</translation>
+  </message>
+  <message>
+   <source>Esc</source>
+   <translation>Esc</translation>
+  </message>
+  <message>
+   <source>Exact cover</source>
+   <translation>Exakte Überdeckung</translation>
+  </message>
+  <message>
+   <source>Export CSV…</source>
+   <translation>CSV exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table</source>
+   <translation>Die Kontrolltabelle exportieren</translation>
+  </message>
+  <message>
+   <source>Export the ground-truth table…</source>
+   <translation>Kontrolltabelle exportieren…</translation>
+  </message>
+  <message>
+   <source>Export the plan</source>
+   <translation>Den Plan exportieren</translation>
+  </message>
+  <message>
+   <source>Exported {0}.</source>
+   <translation>{0} exportiert.</translation>
+  </message>
+  <message>
+   <source>Exporting</source>
+   <translation>Exportieren</translation>
+  </message>
+  <message>
+   <source>Export…</source>
+   <translation>Exportieren…</translation>
+  </message>
+  <message>
+   <source>Faces</source>
+   <translation>Weist nach</translation>
+  </message>
+  <message>
+   <source>Faces east</source>
+   <translation>Weist nach Osten</translation>
+  </message>
+  <message>
+   <source>Faces north</source>
+   <translation>Weist nach Norden</translation>
+  </message>
+  <message>
+   <source>Faces south</source>
+   <translation>Weist nach Süden</translation>
+  </message>
+  <message>
+   <source>Faces west</source>
+   <translation>Weist nach Westen</translation>
+  </message>
+  <message>
+   <source>Facing</source>
+   <translation>Richtung</translation>
+  </message>
+  <message>
+   <source>Facings are known once there is a plan: points by height</source>
+   <translation>Richtungen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Feet and inches</source>
+   <translation>Fuß und Zoll</translation>
+  </message>
+  <message>
+   <source>File</source>
+   <translation>Datei</translation>
+  </message>
+  <message>
+   <source>Filter</source>
+   <translation>Filter</translation>
+  </message>
+  <message>
+   <source>Find a command…</source>
+   <translation>Befehl suchen…</translation>
+  </message>
+  <message>
+   <source>Find the survey…</source>
+   <translation>Aufnahme suchen…</translation>
+  </message>
+  <message>
+   <source>Find {0}</source>
+   <translation>{0} suchen</translation>
+  </message>
+  <message>
+   <source>Finding the axes</source>
+   <translation>Achsen bestimmen</translation>
+  </message>
+  <message>
+   <source>Finding the storeys</source>
+   <translation>Geschosse bestimmen</translation>
+  </message>
+  <message>
+   <source>Fit</source>
+   <translation>Einpassen</translation>
+  </message>
+  <message>
+   <source>Floor plan</source>
+   <translation>Grundriss</translation>
+  </message>
+  <message>
+   <source>Floor plans with what was not seen, after the paper “{title}” by Shariati, Pfrommer and Taylor.</source>
+   <translation>Grundrisse samt dem, was nicht gesehen wurde, nach dem Artikel „{title}“ von Shariati, Pfrommer und Taylor.</translation>
+  </message>
+  <message>
+   <source>Floor to ceiling</source>
+   <translation>Vom Boden zur Decke</translation>
+  </message>
+  <message>
+   <source>Floorcast did not end well. {title} was kept as it was at {when}.</source>
+   <translation>Floorcast wurde unerwartet beendet. {title} ist auf dem Stand von {when} erhalten.</translation>
+  </message>
+  <message>
+   <source>Floorcast failed in this job ({0}: {1}).</source>
+   <translation>Floorcast ist bei dieser Arbeit gescheitert ({0}: {1}).</translation>
+  </message>
+  <message>
+   <source>For as-built drawings; a region needs at least a third of its floor seen, and doubtful doors are left out.</source>
+   <translation>Für Bestandspläne: Von einer Region muss mindestens ein Drittel gesehen sein, zweifelhafte Türen entfallen.</translation>
+  </message>
+  <message>
+   <source>For scripts: select things by kind and id.</source>
+   <translation>Für Skripte: Dinge nach Art und Kennung wählen.</translation>
+  </message>
+  <message>
+   <source>Force the yaw of the walls instead of estimating it.</source>
+   <translation>Die Drehung der Wände vorgeben, statt sie zu schätzen.</translation>
+  </message>
+  <message>
+   <source>Four panes side by side.</source>
+   <translation>Vier Ansichten nebeneinander.</translation>
+  </message>
+  <message>
+   <source>Frame</source>
+   <translation>Achsensystem</translation>
+  </message>
+  <message>
+   <source>Free</source>
+   <translation>Frei</translation>
+  </message>
+  <message>
+   <source>Free space</source>
+   <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space ends there along a straight line</source>
+   <translation>Der Freiraum endet dort an einer geraden Linie</translation>
+  </message>
+  <message>
+   <source>Free space runs through it</source>
+   <translation>Freiraum geht hindurch</translation>
+  </message>
+  <message>
+   <source>Free space that was not seen</source>
+   <translation>Freiraum, der nicht gesehen wurde</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Von</translation>
+  </message>
+  <message>
+   <source>From a ceiling to the floor of the storey above it at most.</source>
+   <translation>Höchstens von einer Decke zum Boden des Geschosses darüber.</translation>
+  </message>
+  <message>
+   <source>From a floor to the ceiling above it at least.</source>
+   <translation>Mindestens von einem Boden zur Decke darüber.</translation>
+  </message>
+  <message>
+   <source>From plan</source>
+   <translation>Aus dem Plan</translation>
+  </message>
+  <message>
+   <source>From the floor to the lintel</source>
+   <translation>Vom Boden bis zum Sturz</translation>
+  </message>
+  <message>
+   <source>From what was measured to the plan that explains it.</source>
+   <translation>Vom Gemessenen zum Plan, der es erklärt.</translation>
+  </message>
+  <message>
+   <source>Front</source>
+   <translation>Vorne</translation>
+  </message>
+  <message>
+   <source>Furniture height</source>
+   <translation>Möbelhöhe</translation>
+  </message>
+  <message>
+   <source>Furniture ratio</source>
+   <translation>Möbelverhältnis</translation>
+  </message>
+  <message>
+   <source>Furniture size</source>
+   <translation>Möbelgröße</translation>
+  </message>
+  <message>
+   <source>Give it the name that people use.</source>
+   <translation>Den Namen geben, den die Leute benutzen.</translation>
+  </message>
+  <message>
+   <source>Gradient</source>
+   <translation>Gradient</translation>
+  </message>
+  <message>
+   <source>Grid {step}</source>
+   <translation>Raster {step}</translation>
+  </message>
+  <message>
+   <source>Ground truth</source>
+   <translation>Kontrollmaße</translation>
+  </message>
+  <message>
+   <source>Guessed sides</source>
+   <translation>Geratene Seiten</translation>
+  </message>
+  <message>
+   <source>Halls and long ranges</source>
+   <translation>Hallen und große Weiten</translation>
+  </message>
+  <message>
+   <source>Height</source>
+   <translation>Höhe</translation>
+  </message>
+  <message>
+   <source>Height h above the floor; none: the height that shows most free cells.</source>
+   <translation>Höhe h über dem Boden; keine: die Höhe mit den meisten freien Zellen.</translation>
+  </message>
+  <message>
+   <source>Height of the slice above the floor</source>
+   <translation>Höhe des Schnitts über dem Boden</translation>
+  </message>
+  <message>
+   <source>Help</source>
+   <translation>Hilfe</translation>
+  </message>
+  <message>
+   <source>Hide</source>
+   <translation>Ausblenden</translation>
+  </message>
+  <message>
+   <source>Hide it in the panes</source>
+   <translation>In den Ansichten ausblenden</translation>
+  </message>
+  <message>
+   <source>Histogram</source>
+   <translation>Histogramm</translation>
+  </message>
+  <message>
+   <source>Histogram, gradient and matched filter along the wall</source>
+   <translation>Histogramm, Gradient und angepasstes Filter entlang der Wand</translation>
+  </message>
+  <message>
+   <source>History</source>
+   <translation>Verlauf</translation>
+  </message>
+  <message>
+   <source>History…</source>
+   <translation>Verlauf…</translation>
+  </message>
+  <message>
+   <source>Hit ratio</source>
+   <translation>Trefferanteil</translation>
+  </message>
+  <message>
+   <source>How sure</source>
+   <translation>Wie sicher</translation>
+  </message>
+  <message>
+   <source>How the file is read.</source>
+   <translation>Wie die Datei gelesen wird.</translation>
+  </message>
+  <message>
+   <source>In stations, shops and plants walls are far and doors are wide; points are kept to 100 m.</source>
+   <translation>In Bahnhöfen, Läden und Werken sind Wände fern und Türen breit; Punkte gelten bis 100 m.</translation>
+  </message>
+  <message>
+   <source>In use</source>
+   <translation>In Gebrauch</translation>
+  </message>
+  <message>
+   <source>Indoor share</source>
+   <translation>Innenanteil</translation>
+  </message>
+  <message>
+   <source>Input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>Inspect</source>
+   <translation>Prüfen</translation>
+  </message>
+  <message>
+   <source>Intensity</source>
+   <translation>Intensität</translation>
+  </message>
+  <message>
+   <source>Isolated objects longer than this times their width are pieces of wall.</source>
+   <translation>Freistehende Objekte, die länger als das Soundsovielfache ihrer Breite sind, sind Wandstücke.</translation>
+  </message>
+  <message>
+   <source>It is a door, however sure the machine is.</source>
+   <translation>Es ist eine Tür, wie sicher das Programm auch ist.</translation>
+  </message>
+  <message>
+   <source>It is a wall, even where the machine takes it for furniture; also switches a wall on again.</source>
+   <translation>Es ist eine Wand, auch wo das Programm sie für ein Möbel hält; schaltet eine Wand auch wieder ein.</translation>
+  </message>
+  <message>
+   <source>It is long, and its top was not seen</source>
+   <translation>Sie ist lang, ihr oberes Ende wurde nicht gesehen</translation>
+  </message>
+  <message>
+   <source>It is low</source>
+   <translation>Sie ist niedrig</translation>
+  </message>
+  <message>
+   <source>It is narrow between two wide spaces</source>
+   <translation>Es ist eng zwischen zwei weiten Räumen</translation>
+  </message>
+  <message>
+   <source>It is no door: the wall goes on here.</source>
+   <translation>Es ist keine Tür: Die Wand geht hier weiter.</translation>
+  </message>
+  <message>
+   <source>It is no wall: it bounds no room and keeps none apart.</source>
+   <translation>Es ist keine Wand: Sie begrenzt und trennt keinen Raum.</translation>
+  </message>
+  <message>
+   <source>It reaches above furniture</source>
+   <translation>Sie reicht höher als Möbel</translation>
+  </message>
+  <message>
+   <source>It reaches the ceiling</source>
+   <translation>Sie reicht bis zur Decke</translation>
+  </message>
+  <message>
+   <source>It was seen from both sides of the wall</source>
+   <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Its thickness</source>
+   <translation>Ihre Dicke</translation>
+  </message>
+  <message>
+   <source>Join gap</source>
+   <translation>Verbindungslücke</translation>
+  </message>
+  <message>
+   <source>Joins</source>
+   <translation>Verbindet</translation>
+  </message>
+  <message>
+   <source>Keep it whatever the machine finds</source>
+   <translation>Behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>Keep wall</source>
+   <translation>Wand behalten</translation>
+  </message>
+  <message>
+   <source>Keep {0}</source>
+   <translation>{0} behalten</translation>
+  </message>
+  <message>
+   <source>Kept by hand</source>
+   <translation>Von Hand behalten</translation>
+  </message>
+  <message>
+   <source>Kept whatever the machine finds</source>
+   <translation>Wird behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>LOA</source>
+   <translation>LOA</translation>
+  </message>
+  <message>
+   <source>Label {0} {1}</source>
+   <translation>{0} als {1} bezeichnen</translation>
+  </message>
+  <message>
+   <source>Labelled by hand</source>
+   <translation>Von Hand bezeichnet</translation>
+  </message>
+  <message>
+   <source>Labels</source>
+   <translation>Bezeichnungen</translation>
+  </message>
+  <message>
+   <source>Large screen</source>
+   <translation>Großer Bildschirm</translation>
+  </message>
+  <message>
+   <source>Largest angle of a surface to the axis of its facing.</source>
+   <translation>Größter Winkel einer Fläche zur Achse ihrer Richtung.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a cell's thickness to its width.</source>
+   <translation>Größtes Verhältnis von Dicke zu Breite einer Zelle.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of a door's width to the free width beyond, on both sides.</source>
+   <translation>Größtes Verhältnis der Türbreite zur freien Breite dahinter, auf beiden Seiten.</translation>
+  </message>
+  <message>
+   <source>Largest ratio of half a corridor's width to the hall's inscribed radius.</source>
+   <translation>Größtes Verhältnis der halben Flurbreite zum Inkreisradius der Halle.</translation>
+  </message>
+  <message>
+   <source>Laser meter</source>
+   <translation>Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Lay the voxels along the survey's own axes: where the file's world lies changes nothing.</source>
+   <translation>Die Voxel längs der Achsen der Aufnahme legen: Wo die Welt der Datei liegt, ändert nichts.</translation>
+  </message>
+  <message>
+   <source>Layers</source>
+   <translation>Layer</translation>
+  </message>
+  <message>
+   <source>Layout planes</source>
+   <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Layout segments: observed patches of structural surfaces.</source>
+   <translation>Wandstücke: gesehene Flecken baulicher Flächen.</translation>
+  </message>
+  <message>
+   <source>Least share of a space that its rectangles must explain; else the map's outline is taken.</source>
+   <translation>Mindestanteil eines Raums, den seine Rechtecke erklären müssen; sonst gilt der Umriss der Karte.</translation>
+  </message>
+  <message>
+   <source>Least share of wall in the line of a door, the door included.</source>
+   <translation>Mindestanteil an Wand in der Linie einer Tür, die Tür eingeschlossen.</translation>
+  </message>
+  <message>
+   <source>Left drag in 3D</source>
+   <translation>Ziehen mit links in 3D</translation>
+  </message>
+  <message>
+   <source>Leg size</source>
+   <translation>Beingröße</translation>
+  </message>
+  <message>
+   <source>Length</source>
+   <translation>Länge</translation>
+  </message>
+  <message>
+   <source>Length that is wall: seen, or between seen parts</source>
+   <translation>Länge, die Wand ist: gesehen oder zwischen gesehenen Teilen</translation>
+  </message>
+  <message>
+   <source>Lengths, differences, percentages, means and accuracy bands as CSV.</source>
+   <translation>Längen, Unterschiede, Prozente, Mittel und Genauigkeitsklassen als CSV.</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the difference meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die der Unterschied erfüllt</translation>
+  </message>
+  <message>
+   <source>Level of accuracy (USIBD) that the residual meets</source>
+   <translation>Genauigkeitsklasse (USIBD), die die Restabweichung erfüllt</translation>
+  </message>
+  <message>
+   <source>Licence</source>
+   <translation>Lizenz</translation>
+  </message>
+  <message>
+   <source>Lintel depth</source>
+   <translation>Sturztiefe</translation>
+  </message>
+  <message>
+   <source>Longest run of the exact solver.</source>
+   <translation>Längste Laufzeit des exakten Lösers.</translation>
+  </message>
+  <message>
+   <source>Look from a corner, from above</source>
+   <translation>Von einer Ecke schräg von oben</translation>
+  </message>
+  <message>
+   <source>Look from there, key {key}</source>
+   <translation>Von dort schauen, Taste {key}</translation>
+  </message>
+  <message>
+   <source>Looks right</source>
+   <translation>Stimmt so</translation>
+  </message>
+  <message>
+   <source>Machine</source>
+   <translation>Programm</translation>
+  </message>
+  <message>
+   <source>Made from</source>
+   <translation>Gemacht aus</translation>
+  </message>
+  <message>
+   <source>Made with</source>
+   <translation>Gemacht mit</translation>
+  </message>
+  <message>
+   <source>Make the selected regions one; the wall between them goes.</source>
+   <translation>Die gewählten Regionen vereinen; die Wand dazwischen fällt weg.</translation>
+  </message>
+  <message>
+   <source>Manhattan frame: gravity and yaw.</source>
+   <translation>Manhattan-Achsensystem: Lot und Drehung.</translation>
+  </message>
+  <message>
+   <source>Maps</source>
+   <translation>Karten</translation>
+  </message>
+  <message>
+   <source>Max askew</source>
+   <translation>Schräganteil höchstens</translation>
+  </message>
+  <message>
+   <source>Max beamless</source>
+   <translation>Breite ohne Unterzug höchstens</translation>
+  </message>
+  <message>
+   <source>Max count</source>
+   <translation>Anzahl höchstens</translation>
+  </message>
+  <message>
+   <source>Max door</source>
+   <translation>Türbreite höchstens</translation>
+  </message>
+  <message>
+   <source>Max mouth</source>
+   <translation>Mündung höchstens</translation>
+  </message>
+  <message>
+   <source>Max opening</source>
+   <translation>Öffnung höchstens</translation>
+  </message>
+  <message>
+   <source>Max passage</source>
+   <translation>Durchgang höchstens</translation>
+  </message>
+  <message>
+   <source>Max range</source>
+   <translation>Entfernung höchstens</translation>
+  </message>
+  <message>
+   <source>Max ratio</source>
+   <translation>Verhältnis höchstens</translation>
+  </message>
+  <message>
+   <source>Max room perimeter</source>
+   <translation>Raumumfang höchstens</translation>
+  </message>
+  <message>
+   <source>Max room turning</source>
+   <translation>Drehabstand von Räumen höchstens</translation>
+  </message>
+  <message>
+   <source>Max slab</source>
+   <translation>Deckenstärke höchstens</translation>
+  </message>
+  <message>
+   <source>Max thickness</source>
+   <translation>Dicke höchstens</translation>
+  </message>
+  <message>
+   <source>Max width</source>
+   <translation>Breite höchstens</translation>
+  </message>
+  <message>
+   <source>Mean of {n}: {error} · {percent} %</source>
+   <translation>Mittel aus {n}: {error} · {percent} %</translation>
+  </message>
+  <message>
+   <source>Measure</source>
+   <translation>Messen</translation>
+  </message>
+  <message>
+   <source>Measure a distance on the plan; then type here what the laser meter said.</source>
+   <translation>Einen Abstand im Plan messen; dann hier eingeben, was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>Measure {0} m</source>
+   <translation>{0} m messen</translation>
+  </message>
+  <message>
+   <source>Merge</source>
+   <translation>Vereinen</translation>
+  </message>
+  <message>
+   <source>Merge regions</source>
+   <translation>Regionen vereinen</translation>
+  </message>
+  <message>
+   <source>Merge {0}</source>
+   <translation>{0} vereinen</translation>
+  </message>
+  <message>
+   <source>Merged by hand</source>
+   <translation>Von Hand vereint</translation>
+  </message>
+  <message>
+   <source>Middle or right drag</source>
+   <translation>Ziehen mit der mittleren oder rechten Taste</translation>
+  </message>
+  <message>
+   <source>Min area</source>
+   <translation>Fläche mindestens</translation>
+  </message>
+  <message>
+   <source>Min component</source>
+   <translation>Fleck mindestens</translation>
+  </message>
+  <message>
+   <source>Min confidence</source>
+   <translation>Sicherheit mindestens</translation>
+  </message>
+  <message>
+   <source>Min height</source>
+   <translation>Höhe mindestens</translation>
+  </message>
+  <message>
+   <source>Min length</source>
+   <translation>Länge mindestens</translation>
+  </message>
+  <message>
+   <source>Min misses</source>
+   <translation>Durchgänge mindestens</translation>
+  </message>
+  <message>
+   <source>Min range</source>
+   <translation>Entfernung mindestens</translation>
+  </message>
+  <message>
+   <source>Min response</source>
+   <translation>Antwort mindestens</translation>
+  </message>
+  <message>
+   <source>Min rest side</source>
+   <translation>Restseite mindestens</translation>
+  </message>
+  <message>
+   <source>Min share</source>
+   <translation>Anteil mindestens</translation>
+  </message>
+  <message>
+   <source>Min side</source>
+   <translation>Seite mindestens</translation>
+  </message>
+  <message>
+   <source>Min space</source>
+   <translation>Raum mindestens</translation>
+  </message>
+  <message>
+   <source>Min support</source>
+   <translation>Stützung mindestens</translation>
+  </message>
+  <message>
+   <source>Min width</source>
+   <translation>Breite mindestens</translation>
+  </message>
+  <message>
+   <source>Mirrored</source>
+   <translation>Gespiegelt</translation>
+  </message>
+  <message>
+   <source>More valid rectangles than this are refused.</source>
+   <translation>Mehr gültige Rechtecke werden abgelehnt.</translation>
+  </message>
+  <message>
+   <source>Mouse</source>
+   <translation>Maus</translation>
+  </message>
+  <message>
+   <source>Mouth opening</source>
+   <translation>Mündungsverengung</translation>
+  </message>
+  <message>
+   <source>Move it; it snaps to evidence</source>
+   <translation>Verschiebt sie; sie rastet an Gemessenem ein</translation>
+  </message>
+  <message>
+   <source>Move wall {0} to {1} m</source>
+   <translation>Wand {0} nach {1} m schieben</translation>
+  </message>
+  <message>
+   <source>Move wall…</source>
+   <translation>Wand verschieben…</translation>
+  </message>
+  <message>
+   <source>Moved by hand</source>
+   <translation>Von Hand verschoben</translation>
+  </message>
+  <message>
+   <source>Name of the region classifier (see `floorcast plugins`).</source>
+   <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
+  </message>
+  <message>
+   <source>Named by hand</source>
+   <translation>Von Hand benannt</translation>
+  </message>
+  <message>
+   <source>Narrower gaps are holes in the data.</source>
+   <translation>Schmalere Lücken sind Löcher in den Daten.</translation>
+  </message>
+  <message>
+   <source>Narrower openings are no doors (paper: 0.8 m).</source>
+   <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No setting is called that.</source>
+   <translation>So heißt keine Einstellung.</translation>
+  </message>
+  <message>
+   <source>Not enough memory for this survey.</source>
+   <translation>Zu wenig Speicher für diese Aufnahme.</translation>
+  </message>
+  <message>
+   <source>Not seen</source>
+   <translation>Nicht gesehen</translation>
+  </message>
+  <message>
+   <source>Note</source>
+   <translation>Notiz</translation>
+  </message>
+  <message>
+   <source>Note on {0}</source>
+   <translation>Notiz zu {0}</translation>
+  </message>
+  <message>
+   <source>Nothing can be clicked by coordinates in the pane {0}.</source>
+   <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing to warn of.</source>
+   <translation>Nichts zu warnen.</translation>
+  </message>
+  <message>
+   <source>Nothing was said by hand of {0}.</source>
+   <translation>Von Hand wurde über {0} nichts gesagt.</translation>
+  </message>
+  <message>
+   <source>Nothing was seen along this wall.</source>
+   <translation>Entlang dieser Wand wurde nichts gesehen.</translation>
+  </message>
+  <message>
+   <source>Observed</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Observed segments</source>
+   <translation>Gesehene Wandstücke</translation>
+  </message>
+  <message>
+   <source>Occupancy</source>
+   <translation>Belegung</translation>
+  </message>
+  <message>
+   <source>Occupancy grid maps: what parts two rooms on a map without heights.</source>
+   <translation>Belegungskarten: was zwei Räume auf einer Karte ohne Höhen trennt.</translation>
+  </message>
+  <message>
+   <source>Occupied</source>
+   <translation>Belegt</translation>
+  </message>
+  <message>
+   <source>Of all regions, to the inside faces of the walls</source>
+   <translation>Aller Regionen, bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>Of its offset</source>
+   <translation>Ihrer Lage</translation>
+  </message>
+  <message>
+   <source>Of the largest floor or ceiling: a smaller one parts no storeys (a gallery).</source>
+   <translation>Des größten Bodens oder der größten Decke: Kleinere trennen keine Geschosse (eine Galerie).</translation>
+  </message>
+  <message>
+   <source>Of the measured length</source>
+   <translation>Der gemessenen Länge</translation>
+  </message>
+  <message>
+   <source>Offset</source>
+   <translation>Lage</translation>
+  </message>
+  <message>
+   <source>Offset tolerance</source>
+   <translation>Lagetoleranz</translation>
+  </message>
+  <message>
+   <source>Only what was seen</source>
+   <translation>Nur was gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans</source>
+   <translation>Einen Ordner mit Scans öffnen</translation>
+  </message>
+  <message>
+   <source>Open a folder of scans.</source>
+   <translation>Einen Ordner mit Scans öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a point cloud, mesh, run, grid map or project.</source>
+   <translation>Punktwolke, Netz, Fahrt, Rasterkarte oder Projekt öffnen.</translation>
+  </message>
+  <message>
+   <source>Open a survey or project</source>
+   <translation>Aufnahme oder Projekt öffnen</translation>
+  </message>
+  <message>
+   <source>Open a survey to see its points here</source>
+   <translation>Eine Aufnahme öffnen, um hier ihre Punkte zu sehen</translation>
+  </message>
+  <message>
+   <source>Open folder…</source>
+   <translation>Ordner öffnen…</translation>
+  </message>
+  <message>
+   <source>Open in Open3D</source>
+   <translation>In Open3D öffnen</translation>
+  </message>
+  <message>
+   <source>Open recent</source>
+   <translation>Zuletzt geöffnet</translation>
+  </message>
+  <message>
+   <source>Open the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme öffnen</translation>
+  </message>
+  <message>
+   <source>Open {0}</source>
+   <translation>{0} öffnen</translation>
+  </message>
+  <message>
+   <source>Open3D's viewer needs a display with OpenGL, and there is none here; the 3D pane shows the same.</source>
+   <translation>Open3Ds Anzeige braucht einen Bildschirm mit OpenGL, und hier ist keiner; die 3D-Ansicht zeigt dasselbe.</translation>
+  </message>
+  <message>
+   <source>Opening {name}</source>
+   <translation>Öffnung {name}</translation>
+  </message>
+  <message>
+   <source>Open…</source>
+   <translation>Öffnen…</translation>
+  </message>
+  <message>
+   <source>Orbit</source>
+   <translation>Umkreisen</translation>
+  </message>
+  <message>
+   <source>Other face</source>
+   <translation>Andere Seite</translation>
+  </message>
+  <message>
+   <source>Own axes</source>
+   <translation>Eigene Achsen</translation>
+  </message>
+  <message>
+   <source>Own colour</source>
+   <translation>Eigene Farbe</translation>
+  </message>
+  <message>
+   <source>Own size</source>
+   <translation>Eigene Größe</translation>
+  </message>
+  <message>
+   <source>Package</source>
+   <translation>Paket</translation>
+  </message>
+  <message>
+   <source>Page</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Pan</source>
+   <translation>Verschieben</translation>
+  </message>
+  <message>
+   <source>Pane</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Panes</source>
+   <translation>Ansichten</translation>
+  </message>
+  <message>
+   <source>Parts</source>
+   <translation>Teile</translation>
+  </message>
+  <message>
+   <source>Parts narrower than this are not part of a region.</source>
+   <translation>Schmalere Teile gehören zu keiner Region.</translation>
+  </message>
+  <message>
+   <source>Passage opening</source>
+   <translation>Durchgangsverengung</translation>
+  </message>
+  <message>
+   <source>Passage wall</source>
+   <translation>Wandanteil an Durchgängen</translation>
+  </message>
+  <message>
+   <source>Patches of one segment differ less in their offset.</source>
+   <translation>Flecken eines Wandstücks unterscheiden sich weniger in ihrer Lage.</translation>
+  </message>
+  <message>
+   <source>Patches of one surface nearer than this along it are one segment.</source>
+   <translation>Flecken einer Fläche, die näher beieinander liegen, sind ein Wandstück.</translation>
+  </message>
+  <message>
+   <source>Perimeter</source>
+   <translation>Umfang</translation>
+  </message>
+  <message>
+   <source>Picture of a pane</source>
+   <translation>Bild einer Ansicht</translation>
+  </message>
+  <message>
+   <source>Picture of a pane…</source>
+   <translation>Bild einer Ansicht…</translation>
+  </message>
+  <message>
+   <source>Pictures are written as .png, .jpg or .webp (asked: {0}).</source>
+   <translation>Bilder werden als .png, .jpg oder .webp geschrieben (verlangt: {0}).</translation>
+  </message>
+  <message>
+   <source>Plan</source>
+   <translation>Plan</translation>
+  </message>
+  <message>
+   <source>Plan again</source>
+   <translation>Neu planen</translation>
+  </message>
+  <message>
+   <source>Plan less laser meter</source>
+   <translation>Plan minus Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Planarity</source>
+   <translation>Ebenheit</translation>
+  </message>
+  <message>
+   <source>Plane</source>
+   <translation>Ebene</translation>
+  </message>
+  <message>
+   <source>Plane {id} faces {facing}</source>
+   <translation>Ebene {id} weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Planes</source>
+   <translation>Ebenen</translation>
+  </message>
+  <message>
+   <source>Planes are known once there is a plan: points by height</source>
+   <translation>Ebenen gibt es mit dem Plan: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Planes of less observed surface are not paired.</source>
+   <translation>Ebenen mit weniger gesehener Fläche werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Planes that face {facing}</source>
+   <translation>Ebenen, die nach {facing} weisen</translation>
+  </message>
+  <message>
+   <source>Planning</source>
+   <translation>Planen</translation>
+  </message>
+  <message>
+   <source>Play the run</source>
+   <translation>Die Fahrt abspielen</translation>
+  </message>
+  <message>
+   <source>Point clouds, meshes, runs of a robot and occupancy maps</source>
+   <translation>Punktwolken, Netze, Fahrten eines Roboters und Belegungskarten</translation>
+  </message>
+  <message>
+   <source>Points</source>
+   <translation>Punkte</translation>
+  </message>
+  <message>
+   <source>Points above are left out of the histogram (paper: 2 m).</source>
+   <translation>Punkte darüber fehlen im Histogramm (Artikel: 2 m).</translation>
+  </message>
+  <message>
+   <source>Points above this height are not drawn in 3D</source>
+   <translation>Punkte über dieser Höhe werden in 3D nicht gezeichnet</translation>
+  </message>
+  <message>
+   <source>Points are not coloured by {0}; choose: {1}.</source>
+   <translation>Punkte werden nicht nach {0} gefärbt; zur Wahl stehen: {1}.</translation>
+  </message>
+  <message>
+   <source>Points by facing</source>
+   <translation>Punkte nach Richtung</translation>
+  </message>
+  <message>
+   <source>Points by height</source>
+   <translation>Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Points by intensity</source>
+   <translation>Punkte nach Intensität</translation>
+  </message>
+  <message>
+   <source>Points by its own colour</source>
+   <translation>Punkte in eigener Farbe</translation>
+  </message>
+  <message>
+   <source>Points by plane</source>
+   <translation>Punkte nach Ebene</translation>
+  </message>
+  <message>
+   <source>Points by {0}</source>
+   <translation>Punkte nach {0}</translation>
+  </message>
+  <message>
+   <source>Points farther from their sensor are dropped.</source>
+   <translation>Punkte, die weiter vom Sensor entfernt sind, entfallen.</translation>
+  </message>
+  <message>
+   <source>Points nearer to their sensor are dropped.</source>
+   <translation>Punkte, die näher am Sensor liegen, entfallen.</translation>
+  </message>
+  <message>
+   <source>Predicted</source>
+   <translation>Vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Presets</source>
+   <translation>Vorgaben</translation>
+  </message>
+  <message>
+   <source>Quit</source>
+   <translation>Beenden</translation>
+  </message>
+  <message>
+   <source>Rays crossed the wall here</source>
+   <translation>Strahlen gingen hier durch die Wand</translation>
+  </message>
+  <message>
+   <source>Rays through a voxel that make it free.</source>
+   <translation>Strahlen durch ein Voxel, die es frei machen.</translation>
+  </message>
+  <message>
+   <source>Read the survey once more and plan it from nothing.</source>
+   <translation>Die Aufnahme noch einmal lesen und von Grund auf planen.</translation>
+  </message>
+  <message>
+   <source>Reading points</source>
+   <translation>Punkte lesen</translation>
+  </message>
+  <message>
+   <source>Reading {0}</source>
+   <translation>{0} lesen</translation>
+  </message>
+  <message>
+   <source>Reading {count} points so far</source>
+   <translation>Bisher {count} Punkte gelesen</translation>
+  </message>
+  <message>
+   <source>Recent</source>
+   <translation>Zuletzt</translation>
+  </message>
+  <message>
+   <source>Recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>Recover</source>
+   <translation>Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>Rectangles</source>
+   <translation>Rechtecke</translation>
+  </message>
+  <message>
+   <source>Rectangles of more total cells a free cell are pruned; what only they cover is reported.</source>
+   <translation>Rechtecke mit mehr Zellen je freier Zelle entfallen; was nur sie überdecken, wird gemeldet.</translation>
+  </message>
+  <message>
+   <source>Redo</source>
+   <translation>Wiederholen</translation>
+  </message>
+  <message>
+   <source>Region {name}</source>
+   <translation>Region {name}</translation>
+  </message>
+  <message>
+   <source>Regions</source>
+   <translation>Regionen</translation>
+  </message>
+  <message>
+   <source>Regions of more total cells a free cell are dropped (paper: 1000).</source>
+   <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
+  </message>
+  <message>
+   <source>Regions, doors, planes</source>
+   <translation>Regionen, Türen, Ebenen</translation>
+  </message>
+  <message>
+   <source>Regions: connected unions of chosen rectangles.</source>
+   <translation>Regionen: zusammenhängende Vereinigungen gewählter Rechtecke.</translation>
+  </message>
+  <message>
+   <source>Reject door</source>
+   <translation>Tür verwerfen</translation>
+  </message>
+  <message>
+   <source>Reject {0}</source>
+   <translation>{0} verwerfen</translation>
+  </message>
+  <message>
+   <source>Relabel region</source>
+   <translation>Region bezeichnen</translation>
+  </message>
+  <message>
+   <source>Relabel region…</source>
+   <translation>Region bezeichnen…</translation>
+  </message>
+  <message>
+   <source>Release</source>
+   <translation>Freigeben</translation>
+  </message>
+  <message>
+   <source>Release {0}</source>
+   <translation>{0} freigeben</translation>
+  </message>
+  <message>
+   <source>Remove the measurement</source>
+   <translation>Messung entfernen</translation>
+  </message>
+  <message>
+   <source>Remove {0}</source>
+   <translation>{0} entfernen</translation>
+  </message>
+  <message>
+   <source>Rename region</source>
+   <translation>Region umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region {0} to {1}</source>
+   <translation>Region {0} in {1} umbenennen</translation>
+  </message>
+  <message>
+   <source>Rename region…</source>
+   <translation>Region umbenennen…</translation>
+  </message>
+  <message>
+   <source>Replay the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Replaying the run</source>
+   <translation>Fahrt nachspielen</translation>
+  </message>
+  <message>
+   <source>Reset all settings</source>
+   <translation>Alle Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Reset settings</source>
+   <translation>Einstellungen zurücksetzen</translation>
+  </message>
+  <message>
+   <source>Residual</source>
+   <translation>Restabweichung</translation>
+  </message>
+  <message>
+   <source>Resize door…</source>
+   <translation>Türbreite ändern…</translation>
+  </message>
+  <message>
+   <source>Resize it</source>
+   <translation>Ändert ihre Breite</translation>
+  </message>
+  <message>
+   <source>Resized by hand</source>
+   <translation>Breite von Hand geändert</translation>
+  </message>
+  <message>
+   <source>Right click</source>
+   <translation>Rechtsklick</translation>
+  </message>
+  <message>
+   <source>Risk</source>
+   <translation>Risiko</translation>
+  </message>
+  <message>
+   <source>Room or corridor, by perimeter and turning distance</source>
+   <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room, corridor or any other word</source>
+   <translation>Room, corridor oder ein anderes Wort</translation>
+  </message>
+  <message>
+   <source>Room, corridor, or a word of your own.</source>
+   <translation>Room, corridor oder ein eigenes Wort.</translation>
+  </message>
+  <message>
+   <source>Rooms and corridors.</source>
+   <translation>Räume und Flure.</translation>
+  </message>
+  <message>
+   <source>Run</source>
+   <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>Save</source>
+   <translation>Speichern</translation>
+  </message>
+  <message>
+   <source>Save as…</source>
+   <translation>Speichern unter…</translation>
+  </message>
+  <message>
+   <source>Save the picture</source>
+   <translation>Das Bild speichern</translation>
+  </message>
+  <message>
+   <source>Save the project</source>
+   <translation>Das Projekt speichern</translation>
+  </message>
+  <message>
+   <source>Save the project under another name.</source>
+   <translation>Das Projekt unter anderem Namen speichern.</translation>
+  </message>
+  <message>
+   <source>Save the project: survey by reference, settings, corrections, checks, view.</source>
+   <translation>Das Projekt speichern: Verweis auf die Aufnahme, Einstellungen, Korrekturen, Messungen, Ansicht.</translation>
+  </message>
+  <message>
+   <source>Save the session as a script</source>
+   <translation>Die Sitzung als Skript speichern</translation>
+  </message>
+  <message>
+   <source>Save the session as a script…</source>
+   <translation>Sitzung als Skript speichern…</translation>
+  </message>
+  <message>
+   <source>Saved {0}.</source>
+   <translation>{0} gespeichert.</translation>
+  </message>
+  <message>
+   <source>Save…</source>
+   <translation>Speichern…</translation>
+  </message>
+  <message>
+   <source>Say where the survey of this project lies now.</source>
+   <translation>Sagen, wo die Aufnahme dieses Projekts jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>Screen</source>
+   <translation>Bildschirm</translation>
+  </message>
+  <message>
+   <source>Search settings</source>
+   <translation>Einstellungen durchsuchen</translation>
+  </message>
+  <message>
+   <source>Section box</source>
+   <translation>Schnittquader</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan every 20 s of run time.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: alle 20 s der Fahrt ein Plan.</translation>
+  </message>
+  <message>
+   <source>See the plan grow as the sensor moved: one plan for every 20 s of the run.</source>
+   <translation>Den Plan mit dem Weg des Sensors wachsen sehen: ein Plan für je 20 s der Fahrt.</translation>
+  </message>
+  <message>
+   <source>Seen</source>
+   <translation>Gesehen</translation>
+  </message>
+  <message>
+   <source>Segment</source>
+   <translation>Wandstück</translation>
+  </message>
+  <message>
+   <source>Segment {name}</source>
+   <translation>Wandstück {name}</translation>
+  </message>
+  <message>
+   <source>Segments</source>
+   <translation>Wandstücke</translation>
+  </message>
+  <message>
+   <source>Segments of less observed surface are dropped.</source>
+   <translation>Wandstücke mit weniger gesehener Fläche entfallen.</translation>
+  </message>
+  <message>
+   <source>Select</source>
+   <translation>Wählen</translation>
+  </message>
+  <message>
+   <source>Select a measurement first; then it can be removed.</source>
+   <translation>Zuerst eine Messung wählen; dann lässt sie sich entfernen.</translation>
+  </message>
+  <message>
+   <source>Select a wall or a door.</source>
+   <translation>Eine Wand oder eine Tür wählen.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a check first; regions are merged, not deleted.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Messung wählen; Regionen werden vereint, nicht gelöscht.</translation>
+  </message>
+  <message>
+   <source>Select a wall, a door or a region first.</source>
+   <translation>Zuerst eine Wand, eine Tür oder eine Region wählen.</translation>
+  </message>
+  <message>
+   <source>Select by name</source>
+   <translation>Nach Namen wählen</translation>
+  </message>
+  <message>
+   <source>Select nothing</source>
+   <translation>Nichts wählen</translation>
+  </message>
+  <message>
+   <source>Select something first; then it can be brought into view.</source>
+   <translation>Zuerst etwas wählen; dann lässt es sich ins Bild holen.</translation>
+  </message>
+  <message>
+   <source>Select {0} {1}{2} first.</source>
+   <translation>Zuerst {0} {1}{2} wählen.</translation>
+  </message>
+  <message>
+   <source>Select; with Ctrl add to the selection</source>
+   <translation>Wählt; mit Strg kommt es zur Auswahl hinzu</translation>
+  </message>
+  <message>
+   <source>Selection</source>
+   <translation>Auswahl</translation>
+  </message>
+  <message>
+   <source>Set a measured length…</source>
+   <translation>Gemessene Länge setzen…</translation>
+  </message>
+  <message>
+   <source>Set cover of the free space, then connected unions</source>
+   <translation>Überdeckung des Freiraums, dann zusammenhängende Vereinigungen</translation>
+  </message>
+  <message>
+   <source>Set the view…</source>
+   <translation>Ansicht einstellen…</translation>
+  </message>
+  <message>
+   <source>Set {0} to {1}</source>
+   <translation>{0} auf {1} setzen</translation>
+  </message>
+  <message>
+   <source>Setting: {name}</source>
+   <translation>Einstellung: {name}</translation>
+  </message>
+  <message>
+   <source>Setting: {stage}: {name}</source>
+   <translation>Einstellung: {stage}: {name}</translation>
+  </message>
+  <message>
+   <source>Settings</source>
+   <translation>Einstellungen</translation>
+  </message>
+  <message>
+   <source>Settings that belong together, with the reason why</source>
+   <translation>Einstellungen, die zusammengehören, mit ihrem Grund</translation>
+  </message>
+  <message>
+   <source>Share of a patch that must lie under seen ceiling or over seen floor.</source>
+   <translation>Anteil eines Flecks, der unter gesehener Decke oder über gesehenem Boden liegen muss.</translation>
+  </message>
+  <message>
+   <source>Share of hits among hits and misses from which a voxel is occupied.</source>
+   <translation>Anteil der Treffer an Treffern und Durchgängen, ab dem ein Voxel belegt ist.</translation>
+  </message>
+  <message>
+   <source>Share of its floor seen free</source>
+   <translation>Anteil ihres Bodens, der frei gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Share of the floor that was seen free; the rest is predicted</source>
+   <translation>Anteil des Bodens, der frei gesehen wurde; der Rest ist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>Share of the wall along the two axes</source>
+   <translation>Anteil der Wände längs der beiden Achsen</translation>
+  </message>
+  <message>
+   <source>Share of walls at other angles from which a space gets the map's outline.</source>
+   <translation>Anteil der Wände in anderen Winkeln, ab dem ein Raum den Umriss der Karte bekommt.</translation>
+  </message>
+  <message>
+   <source>Shortcuts</source>
+   <translation>Tastenkürzel</translation>
+  </message>
+  <message>
+   <source>Shortcuts and gestures</source>
+   <translation>Tastenkürzel und Gesten</translation>
+  </message>
+  <message>
+   <source>Shorter segments are dropped.</source>
+   <translation>Kürzere Wandstücke entfallen.</translation>
+  </message>
+  <message>
+   <source>Shorter sides are pruned (paper: 1 m).</source>
+   <translation>Kürzere Seiten entfallen (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Show</source>
+   <translation>Zeigen</translation>
+  </message>
+  <message>
+   <source>Show a pane…</source>
+   <translation>Ansicht zeigen…</translation>
+  </message>
+  <message>
+   <source>Show it in the panes</source>
+   <translation>In den Ansichten zeigen</translation>
+  </message>
+  <message>
+   <source>Show lengths and areas in feet and inches.</source>
+   <translation>Längen und Flächen in Fuß und Zoll zeigen.</translation>
+  </message>
+  <message>
+   <source>Show or hide</source>
+   <translation>Zeigen oder ausblenden</translation>
+  </message>
+  <message>
+   <source>Show or hide: dimensions.</source>
+   <translation>Zeigen oder ausblenden: Maße.</translation>
+  </message>
+  <message>
+   <source>Show or hide: doors.</source>
+   <translation>Zeigen oder ausblenden: Türen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: free space.</source>
+   <translation>Zeigen oder ausblenden: Freiraum.</translation>
+  </message>
+  <message>
+   <source>Show or hide: planes.</source>
+   <translation>Zeigen oder ausblenden: Ebenen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: points.</source>
+   <translation>Zeigen oder ausblenden: Punkte.</translation>
+  </message>
+  <message>
+   <source>Show or hide: regions.</source>
+   <translation>Zeigen oder ausblenden: Regionen.</translation>
+  </message>
+  <message>
+   <source>Show or hide: trajectory.</source>
+   <translation>Zeigen oder ausblenden: Weg.</translation>
+  </message>
+  <message>
+   <source>Show or hide: {0}.</source>
+   <translation>Zeigen oder ausblenden: {0}.</translation>
+  </message>
+  <message>
+   <source>Show the evidence on the other face of the wall</source>
+   <translation>Die Belege auf der anderen Seite der Wand zeigen</translation>
+  </message>
+  <message>
+   <source>Side</source>
+   <translation>Seite</translation>
+  </message>
+  <message>
+   <source>Side of a voxel of the occupancy map (paper: 0.1 m).</source>
+   <translation>Seite eines Voxels der Belegungskarte (Artikel: 0,1 m).</translation>
+  </message>
+  <message>
+   <source>Side of the window in which the direction of a surface is fitted.</source>
+   <translation>Seite des Fensters, in dem die Richtung einer Fläche bestimmt wird.</translation>
+  </message>
+  <message>
+   <source>Sides along which less than half was seen; they are dashed</source>
+   <translation>Seiten, von denen weniger als die Hälfte gesehen wurde; sie sind gestrichelt</translation>
+  </message>
+  <message>
+   <source>Size</source>
+   <translation>Größe</translation>
+  </message>
+  <message>
+   <source>Slice height</source>
+   <translation>Schnitthöhe</translation>
+  </message>
+  <message>
+   <source>Sliver</source>
+   <translation>Splitter</translation>
+  </message>
+  <message>
+   <source>Smaller enclosed spaces are dropped.</source>
+   <translation>Kleinere umschlossene Räume entfallen.</translation>
+  </message>
+  <message>
+   <source>Smaller isolated objects are furniture, whatever their shape.</source>
+   <translation>Kleinere freistehende Objekte sind Möbel, welche Form sie auch haben.</translation>
+  </message>
+  <message>
+   <source>Smaller patches of free cells do not drive the cover.</source>
+   <translation>Kleinere Flecken freier Zellen treiben die Überdeckung nicht an.</translation>
+  </message>
+  <message>
+   <source>Smaller regions are dropped.</source>
+   <translation>Kleinere Regionen entfallen.</translation>
+  </message>
+  <message>
+   <source>Smallest response of the matched filter, 1 being a clean aperture.</source>
+   <translation>Kleinste Antwort des angepassten Filters; 1 ist eine saubere Öffnung.</translation>
+  </message>
+  <message>
+   <source>Smoothing</source>
+   <translation>Glättung</translation>
+  </message>
+  <message>
+   <source>Solver</source>
+   <translation>Löser</translation>
+  </message>
+  <message>
+   <source>Speak English from the next start on.</source>
+   <translation>Ab dem nächsten Start Englisch sprechen.</translation>
+  </message>
+  <message>
+   <source>Speak German from the next start on.</source>
+   <translation>Ab dem nächsten Start Deutsch sprechen.</translation>
+  </message>
+  <message>
+   <source>Split</source>
+   <translation>Teilen</translation>
+  </message>
+  <message>
+   <source>Split by hand</source>
+   <translation>Von Hand geteilt</translation>
+  </message>
+  <message>
+   <source>Split region</source>
+   <translation>Region teilen</translation>
+  </message>
+  <message>
+   <source>Stage</source>
+   <translation>Schritt</translation>
+  </message>
+  <message>
+   <source>Standard deviation of the Gaussian whose derivative gives the gradient.</source>
+   <translation>Standardabweichung der Gaußkurve, deren Ableitung den Gradienten gibt.</translation>
+  </message>
+  <message>
+   <source>Standard error</source>
+   <translation>Standardfehler</translation>
+  </message>
+  <message>
+   <source>Step of the search for the sharpest walls.</source>
+   <translation>Schrittweite der Suche nach den schärfsten Wänden.</translation>
+  </message>
+  <message>
+   <source>Stop what runs; the last plan stays.</source>
+   <translation>Anhalten, was läuft; der letzte Plan bleibt.</translation>
+  </message>
+  <message>
+   <source>Storeys</source>
+   <translation>Geschosse</translation>
+  </message>
+  <message>
+   <source>Storeys of one survey, from its floors and ceilings.</source>
+   <translation>Geschosse einer Aufnahme, aus ihren Böden und Decken.</translation>
+  </message>
+  <message>
+   <source>Support</source>
+   <translation>Stützung</translation>
+  </message>
+  <message>
+   <source>Surface</source>
+   <translation>Oberfläche</translation>
+  </message>
+  <message>
+   <source>Surface that was observed</source>
+   <translation>Fläche, die gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Surfaces at most this deep behind a wall of the same facing are its recesses, not paired.</source>
+   <translation>Flächen, die höchstens so tief hinter einer Wand gleicher Richtung liegen, sind deren Nischen und werden nicht gepaart.</translation>
+  </message>
+  <message>
+   <source>Surfaces this near to a plane are the same wall: its other face, frames, leaves.</source>
+   <translation>Flächen, die einer Ebene so nahe sind, sind dieselbe Wand: ihre andere Seite, Rahmen, Türblätter.</translation>
+  </message>
+  <message>
+   <source>Surveys and projects</source>
+   <translation>Aufnahmen und Projekte</translation>
+  </message>
+  <message>
+   <source>Switch off {0}</source>
+   <translation>{0} ausschalten</translation>
+  </message>
+  <message>
+   <source>Switch the selected wall off, reject the selected door, remove the selected check.</source>
+   <translation>Die gewählte Wand ausschalten, die gewählte Tür verwerfen, die gewählte Messung entfernen.</translation>
+  </message>
+  <message>
+   <source>Switch wall off</source>
+   <translation>Wand ausschalten</translation>
+  </message>
+  <message>
+   <source>Switched off by hand</source>
+   <translation>Von Hand ausgeschaltet</translation>
+  </message>
+  <message>
+   <source>Take back all corrections</source>
+   <translation>Alle Korrekturen zurücknehmen</translation>
+  </message>
+  <message>
+   <source>Take back all that was said of it by hand: the machine decides again.</source>
+   <translation>Alles zurücknehmen, was von Hand darüber gesagt wurde: Das Programm entscheidet wieder.</translation>
+  </message>
+  <message>
+   <source>Take the last step back; there is no limit.</source>
+   <translation>Den letzten Schritt zurücknehmen; ohne Grenze.</translation>
+  </message>
+  <message>
+   <source>Take the selected row out of the ground-truth table.</source>
+   <translation>Die gewählte Zeile aus der Kontrolltabelle nehmen.</translation>
+  </message>
+  <message>
+   <source>Taken for</source>
+   <translation>Gehalten für</translation>
+  </message>
+  <message>
+   <source>The best cover by integer programming instead of the greedy one; slower, rarely different.</source>
+   <translation>Die beste Überdeckung durch ganzzahlige Optimierung statt der gierigen; langsamer, selten anders.</translation>
+  </message>
+  <message>
+   <source>The corrections made since the last save would be lost.</source>
+   <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
+  </message>
+  <message>
+   <source>The fewest planes that explain all segments</source>
+   <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
+  </message>
+  <message>
+   <source>The file's axes are left-handed; its plan would come out mirrored otherwise.</source>
+   <translation>Die Achsen der Datei sind linkshändig; ihr Plan erschiene sonst gespiegelt.</translation>
+  </message>
+  <message>
+   <source>The file's up axis.</source>
+   <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan as a picture into the clipboard.</source>
+   <translation>Den Grundriss als Bild in die Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The floor plan large.</source>
+   <translation>Der Grundriss groß.</translation>
+  </message>
+  <message>
+   <source>The height at which most free space was seen</source>
+   <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The look has no such field ({0}).</source>
+   <translation>Die Ansicht hat kein solches Feld ({0}).</translation>
+  </message>
+  <message>
+   <source>The machine had said: {said}</source>
+   <translation>Das Programm hatte gesagt: {said}</translation>
+  </message>
+  <message>
+   <source>The minimum set of layout planes.</source>
+   <translation>Die kleinste Menge von Wandebenen.</translation>
+  </message>
+  <message>
+   <source>The numbers that the paper states, to compare with its figures. Doors of 0.8 to 1.2 m only.</source>
+   <translation>Die Zahlen, die der Artikel nennt, zum Vergleich mit seinen Bildern. Nur Türen von 0,8 bis 1,2 m.</translation>
+  </message>
+  <message>
+   <source>The package brings no text of its licence ({licence}).</source>
+   <translation>Das Paket bringt keinen Text seiner Lizenz mit ({licence}).</translation>
+  </message>
+  <message>
+   <source>The picture is in the clipboard.</source>
+   <translation>Das Bild ist in der Zwischenablage.</translation>
+  </message>
+  <message>
+   <source>The plan as the machine made it; undo brings your corrections back.</source>
+   <translation>Der Plan, wie das Programm ihn gemacht hat; Rückgängig bringt die Korrekturen wieder.</translation>
+  </message>
+  <message>
+   <source>The ratio of widths for a passage.</source>
+   <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The regions on its two sides</source>
+   <translation>Die Regionen auf ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>The same for what is left uncovered and closed by speculated planes.</source>
+   <translation>Dasselbe für das, was unbedeckt bleibt und durch vermutete Ebenen geschlossen wird.</translation>
+  </message>
+  <message>
+   <source>The same scene in Open3D's own viewer.</source>
+   <translation>Dieselbe Szene in Open3Ds eigener Anzeige.</translation>
+  </message>
+  <message>
+   <source>The script {0} does not exist.</source>
+   <translation>Das Skript {0} gibt es nicht.</translation>
+  </message>
+  <message>
+   <source>The sensor looked over it: there is air above</source>
+   <translation>Der Sensor sah darüber hinweg: Oben ist Luft</translation>
+  </message>
+  <message>
+   <source>The sensor went through it</source>
+   <translation>Der Sensor ging hindurch</translation>
+  </message>
+  <message>
+   <source>The share of wall for a passage.</source>
+   <translation>Der Wandanteil für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The slice of the voxel map that gives the universe F_h.</source>
+   <translation>Der Schnitt der Voxelkarte, der die Grundmenge F_h gibt.</translation>
+  </message>
+  <message>
+   <source>The timeline large.</source>
+   <translation>Die Zeitleiste groß.</translation>
+  </message>
+  <message>
+   <source>The two points of a measurement are the same; give two different ones.</source>
+   <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>There is a region {0} already.</source>
+   <translation>Es gibt schon eine Region {0}.</translation>
+  </message>
+  <message>
+   <source>There is no action {0}; the actions are: {1}.</source>
+   <translation>Es gibt keinen Befehl {0}; die Befehle sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no dialog {0}.</source>
+   <translation>Es gibt keinen Dialog {0}.</translation>
+  </message>
+  <message>
+   <source>There is no display to open a window on; 'floorcast gui --script FILE' needs none.</source>
+   <translation>Es gibt keinen Bildschirm für ein Fenster; „floorcast gui --script DATEI“ braucht keinen.</translation>
+  </message>
+  <message>
+   <source>There is no language {0}; there are: {1}.</source>
+   <translation>Es gibt keine Sprache {0}; es gibt: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no layer {0}; the layers are: {1}.</source>
+   <translation>Es gibt keinen Layer {0}; die Layer sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no measurement {0}; the measurements are: {1}.</source>
+   <translation>Es gibt keine Messung {0}; die Messungen sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no pane {0}; the panes are: {1}.</source>
+   <translation>Es gibt keine Ansicht {0}; die Ansichten sind: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no plan to show in Open3D yet; open a survey first.</source>
+   <translation>Es gibt noch keinen Plan für Open3D; bitte zuerst eine Aufnahme öffnen.</translation>
+  </message>
+  <message>
+   <source>There is no plan yet.</source>
+   <translation>Es gibt noch keinen Plan.</translation>
+  </message>
+  <message>
+   <source>There is no setting {0}; 'floorcast settings' lists them.</source>
+   <translation>Es gibt keine Einstellung {0}; „floorcast settings“ nennt alle.</translation>
+  </message>
+  <message>
+   <source>There is no step {0}: the history has the steps 0 to {1}.</source>
+   <translation>Es gibt keinen Schritt {0}: Der Verlauf hat die Schritte 0 bis {1}.</translation>
+  </message>
+  <message>
+   <source>There is no survey to look for.</source>
+   <translation>Es gibt keine Aufnahme zu suchen.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1} in this plan.</source>
+   <translation>Es gibt kein {0} {1} in diesem Plan.</translation>
+  </message>
+  <message>
+   <source>There is no {0} {1}.</source>
+   <translation>Es gibt kein {0} {1}.</translation>
+  </message>
+  <message>
+   <source>Thickness between its two faces</source>
+   <translation>Dicke zwischen ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>This survey does not say when its points were measured.</source>
+   <translation>Diese Aufnahme sagt nicht, wann ihre Punkte gemessen wurden.</translation>
+  </message>
+  <message>
+   <source>This survey holds no colour: points by height</source>
+   <translation>Diese Aufnahme hat keine Farben: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>This survey holds no intensity: points by height</source>
+   <translation>Diese Aufnahme hat keine Intensität: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>Time</source>
+   <translation>Zeit</translation>
+  </message>
+  <message>
+   <source>Time limit</source>
+   <translation>Zeitgrenze</translation>
+  </message>
+  <message>
+   <source>Timeline</source>
+   <translation>Zeitleiste</translation>
+  </message>
+  <message>
+   <source>To</source>
+   <translation>Bis</translation>
+  </message>
+  <message>
+   <source>To the inside faces of the walls</source>
+   <translation>Bis zu den Innenseiten der Wände</translation>
+  </message>
+  <message>
+   <source>To the unit square: a corridor where it is over the limit</source>
+   <translation>Zum Einheitsquadrat: ein Flur, wo er über der Grenze liegt</translation>
+  </message>
+  <message>
+   <source>Tolerance</source>
+   <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>Toolbar</source>
+   <translation>Werkzeugleiste</translation>
+  </message>
+  <message>
+   <source>Tools</source>
+   <translation>Werkzeuge</translation>
+  </message>
+  <message>
+   <source>Top</source>
+   <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Trajectory</source>
+   <translation>Weg</translation>
+  </message>
+  <message>
+   <source>Tripod scanner, precise</source>
+   <translation>Standscanner, genau</translation>
+  </message>
+  <message>
+   <source>Try Floorcast on a survey that comes with it.</source>
+   <translation>Floorcast an einer mitgelieferten Aufnahme ausprobieren.</translation>
+  </message>
+  <message>
+   <source>Try the bundled survey</source>
+   <translation>Mitgelieferte Aufnahme</translation>
+  </message>
+  <message>
+   <source>Turn of the walls against the file's axes</source>
+   <translation>Drehung der Wände gegen die Achsen der Datei</translation>
+  </message>
+  <message>
+   <source>Turning</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance</source>
+   <translation>Drehabstand</translation>
+  </message>
+  <message>
+   <source>Turning distance to the unit square: how little it is like a room</source>
+   <translation>Drehabstand zum Einheitsquadrat: wie wenig sie einem Raum gleicht</translation>
+  </message>
+  <message>
+   <source>Two clicks across a region cut it in two.</source>
+   <translation>Zwei Klicks quer durch eine Region teilen sie.</translation>
+  </message>
+  <message>
+   <source>Two clicks draw a wall with two faces.</source>
+   <translation>Zwei Klicks zeichnen eine Wand mit zwei Seiten.</translation>
+  </message>
+  <message>
+   <source>Two clicks measure a distance, from wall to wall where both are walls; A measures an area.</source>
+   <translation>Zwei Klicks messen einen Abstand, von Wand zu Wand, wo beides Wände sind; A misst eine Fläche.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall add a door; drag the ends of the selected one.</source>
+   <translation>Zwei Klicks auf eine Wand fügen eine Tür hinzu; die Enden der gewählten lassen sich ziehen.</translation>
+  </message>
+  <message>
+   <source>Two clicks on a wall, one at each jamb.</source>
+   <translation>Zwei Klicks auf eine Wand, einer an jeder Laibung.</translation>
+  </message>
+  <message>
+   <source>Two clicks: the region between them is cut from side to side.</source>
+   <translation>Zwei Klicks: Die Region dazwischen wird von Seite zu Seite geteilt.</translation>
+  </message>
+  <message>
+   <source>Two faces farther apart than this are not one wall.</source>
+   <translation>Zwei Seiten, die weiter auseinander liegen, sind nicht eine Wand.</translation>
+  </message>
+  <message>
+   <source>Type a command or a setting</source>
+   <translation>Befehl oder Einstellung eingeben</translation>
+  </message>
+  <message>
+   <source>Type some letters of a command or a setting, press Enter.</source>
+   <translation>Einige Buchstaben eines Befehls oder einer Einstellung eingeben, dann Enter.</translation>
+  </message>
+  <message>
+   <source>Type the width of the opening; or drag its ends in a plan.</source>
+   <translation>Die Breite der Öffnung eingeben; oder ihre Enden im Plan ziehen.</translation>
+  </message>
+  <message>
+   <source>Type where it lies; or drag it in a plan, where it snaps to what was seen.</source>
+   <translation>Eingeben, wo sie liegt; oder im Plan ziehen, wo sie an Gesehenem einrastet.</translation>
+  </message>
+  <message>
+   <source>Undo</source>
+   <translation>Rückgängig</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>Einheit</translation>
+  </message>
+  <message>
+   <source>Unit of the file's coordinates; us-ft is the US survey foot.</source>
+   <translation>Einheit der Koordinaten der Datei; us-ft ist der US-Vermessungsfuß.</translation>
+  </message>
+  <message>
+   <source>Unseen stretches between two seen parts of one wall are wall up to this length.</source>
+   <translation>Ungesehene Stücke zwischen zwei gesehenen Teilen einer Wand sind bis zu dieser Länge Wand.</translation>
+  </message>
+  <message>
+   <source>Up</source>
+   <translation>Hochachse</translation>
+  </message>
+  <message>
+   <source>Use</source>
+   <translation>Nehmen</translation>
+  </message>
+  <message>
+   <source>Use a preset…</source>
+   <translation>Vorgabe nehmen…</translation>
+  </message>
+  <message>
+   <source>Use {0}</source>
+   <translation>{0} nehmen</translation>
+  </message>
+  <message>
+   <source>Version</source>
+   <translation>Version</translation>
+  </message>
+  <message>
+   <source>Version and licences.</source>
+   <translation>Version und Lizenzen.</translation>
+  </message>
+  <message>
+   <source>Version {version} · Apache License 2.0</source>
+   <translation>Version {version} · Apache-Lizenz 2.0</translation>
+  </message>
+  <message>
+   <source>View</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Voxel map and surfels.</source>
+   <translation>Voxelkarte und Surfel.</translation>
+  </message>
+  <message>
+   <source>Voxels</source>
+   <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>Wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>Wall depth</source>
+   <translation>Wandtiefe</translation>
+  </message>
+  <message>
+   <source>Wall support</source>
+   <translation>Wandstützung</translation>
+  </message>
+  <message>
+   <source>Wall was seen above it</source>
+   <translation>Darüber wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on both sides of it</source>
+   <translation>Auf beiden Seiten wurde Wand gesehen</translation>
+  </message>
+  <message>
+   <source>Wall was seen on one side of it, the other is a corner</source>
+   <translation>Auf einer Seite wurde Wand gesehen, die andere ist eine Ecke</translation>
+  </message>
+  <message>
+   <source>Wall {name}, faces {facing}</source>
+   <translation>Wand {name}, weist nach {facing}</translation>
+  </message>
+  <message>
+   <source>Walls and doors this near to a side do not lie in the interior.</source>
+   <translation>Wände und Türen, die einer Seite so nahe sind, liegen nicht im Inneren.</translation>
+  </message>
+  <message>
+   <source>Walls of a hand-held depth camera scatter by centimetres and bend; wider tolerances keep one wall one plane.</source>
+   <translation>Wände aus einer handgeführten Tiefenkamera streuen um Zentimeter und biegen sich; weitere Toleranzen halten eine Wand in einer Ebene.</translation>
+  </message>
+  <message>
+   <source>Walls of more observed surface than this never lie inside a region.</source>
+   <translation>Wände mit mehr gesehener Fläche liegen nie im Inneren einer Region.</translation>
+  </message>
+  <message>
+   <source>Warnings</source>
+   <translation>Warnungen</translation>
+  </message>
+  <message>
+   <source>Warnings ({n})</source>
+   <translation>Warnungen ({n})</translation>
+  </message>
+  <message>
+   <source>Weighted set cover of the free space.</source>
+   <translation>Gewichtete Überdeckung des Freiraums.</translation>
+  </message>
+  <message>
+   <source>What can be done with it</source>
+   <translation>Was sich damit tun lässt</translation>
+  </message>
+  <message>
+   <source>What it is</source>
+   <translation>Was es ist</translation>
+  </message>
+  <message>
+   <source>What it is made of</source>
+   <translation>Woraus sie besteht</translation>
+  </message>
+  <message>
+   <source>What the laser meter said.</source>
+   <translation>Was das Lasermessgerät sagte.</translation>
+  </message>
+  <message>
+   <source>What the laser meter said: double-click and type, like 3.2, 320 cm or 10' 6"</source>
+   <translation>Was das Lasermessgerät sagte: doppelklicken und eingeben, etwa 3,2 oder 320 cm oder 10' 6"</translation>
+  </message>
+  <message>
+   <source>What the points are coloured by</source>
+   <translation>Wonach die Punkte gefärbt sind</translation>
+  </message>
+  <message>
+   <source>Wheel</source>
+   <translation>Mausrad</translation>
+  </message>
+  <message>
+   <source>Where is {0}?</source>
+   <translation>Wo ist {0}?</translation>
+  </message>
+  <message>
+   <source>Whole survey</source>
+   <translation>Ganze Aufnahme</translation>
+  </message>
+  <message>
+   <source>Whole window</source>
+   <translation>Ganzes Fenster</translation>
+  </message>
+  <message>
+   <source>Why it is there</source>
+   <translation>Warum es da ist</translation>
+  </message>
+  <message>
+   <source>Wider openings are no doors but openings (paper: 1.2 m).</source>
+   <translation>Breitere Öffnungen sind keine Türen, sondern Öffnungen (Artikel: 1,2 m).</translation>
+  </message>
+  <message>
+   <source>Widest aperture that is taken for a door.</source>
+   <translation>Breiteste Öffnung, die als Tür gilt.</translation>
+  </message>
+  <message>
+   <source>Widest gap in a wall that still parts two rooms.</source>
+   <translation>Breiteste Lücke in einer Wand, die noch zwei Räume trennt.</translation>
+  </message>
+  <message>
+   <source>Widest opening below a lintel that still separates two regions.</source>
+   <translation>Breiteste Öffnung unter einem Sturz, die noch zwei Regionen trennt.</translation>
+  </message>
+  <message>
+   <source>Width</source>
+   <translation>Breite</translation>
+  </message>
+  <message>
+   <source>Width of a histogram bin.</source>
+   <translation>Breite einer Klasse des Histogramms.</translation>
+  </message>
+  <message>
+   <source>Width that the filter is matched to (paper: 1 m).</source>
+   <translation>Breite, an die das Filter angepasst ist (Artikel: 1 m).</translation>
+  </message>
+  <message>
+   <source>Window</source>
+   <translation>Fenster</translation>
+  </message>
+  <message>
+   <source>Worst side</source>
+   <translation>Schlechteste Seite</translation>
+  </message>
+  <message>
+   <source>Write the plan as SVG, GeoJSON, PNG or another format.</source>
+   <translation>Den Plan als SVG, GeoJSON, PNG oder in anderem Format schreiben.</translation>
+  </message>
+  <message>
+   <source>Write what was done as a list of actions that 'floorcast gui --script' runs again.</source>
+   <translation>Schreiben, was getan wurde, als Liste von Befehlen, die „floorcast gui --script“ wieder ausführt.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}.</source>
+   <translation>{0} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Wrote {0}; run it with: floorcast gui --script {1}</source>
+   <translation>{0} geschrieben; ausführen mit: floorcast gui --script {1}</translation>
+  </message>
+  <message>
+   <source>Wrote {name}.</source>
+   <translation>{name} geschrieben.</translation>
+  </message>
+  <message>
+   <source>Yaw</source>
+   <translation>Drehung</translation>
+  </message>
+  <message>
+   <source>Yaw step</source>
+   <translation>Schritt der Drehung</translation>
+  </message>
+  <message>
+   <source>Zoom to it</source>
+   <translation>Heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to selection</source>
+   <translation>Auswahl heranholen</translation>
+  </message>
+  <message>
+   <source>Zoom to the pointer</source>
+   <translation>Zoomt zum Zeiger</translation>
+  </message>
+  <message>
+   <source>and {n} more</source>
+   <translation>und {n} weitere</translation>
+  </message>
+  <message>
+   <source>auto</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation>automatisch</translation>
+  </message>
+  <message>
+   <source>check</source>
+   <translation>Messung</translation>
+  </message>
+  <message>
+   <source>comes as {value}</source>
+   <translation>geliefert: {value}</translation>
+  </message>
+  <message>
+   <source>corridor</source>
+   <translation>Flur</translation>
+  </message>
+  <message>
+   <source>door</source>
+   <translation>Tür</translation>
+  </message>
+  <message>
+   <source>east</source>
+   <translation>Osten</translation>
+  </message>
+  <message>
+   <source>exact</source>
+   <translation>exakt</translation>
+  </message>
+  <message>
+   <source>frame {yaw} (support {share})</source>
+   <translation>Achsen {yaw} (Stützung {share})</translation>
+  </message>
+  <message>
+   <source>furniture</source>
+   <translation>Möbel</translation>
+  </message>
+  <message>
+   <source>greedy</source>
+   <translation>gierig</translation>
+  </message>
+  <message>
+   <source>greedy (paper) or exact (integer program, HiGHS).</source>
+   <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>mostly predicted</source>
+   <translation>meist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>no plan yet</source>
+   <translation>noch kein Plan</translation>
+  </message>
+  <message>
+   <source>north</source>
+   <translation>Norden</translation>
+  </message>
+  <message>
+   <source>opening</source>
+   <translation>Öffnung</translation>
+  </message>
+  <message>
+   <source>path {length}</source>
+   <translation>Weg {length}</translation>
+  </message>
+  <message>
+   <source>predicted</source>
+   <translation>vorhergesagt</translation>
+  </message>
+  <message>
+   <source>predicted {area}</source>
+   <translation>vorhergesagt {area}</translation>
+  </message>
+  <message>
+   <source>ready in {time}</source>
+   <translation>fertig in {time}</translation>
+  </message>
+  <message>
+   <source>recess</source>
+   <translation>Nische</translation>
+  </message>
+  <message>
+   <source>region</source>
+   <translation>Region</translation>
+  </message>
+  <message>
+   <source>regions {n}</source>
+   <translation>Regionen {n}</translation>
+  </message>
+  <message>
+   <source>room</source>
+   <translation>Raum</translation>
+  </message>
+  <message>
+   <source>seen {area}</source>
+   <translation>gesehen {area}</translation>
+  </message>
+  <message>
+   <source>south</source>
+   <translation>Süden</translation>
+  </message>
+  <message>
+   <source>type it here</source>
+   <translation>hier eingeben</translation>
+  </message>
+  <message>
+   <source>unit as guessed</source>
+   <translation>Einheit wie vermutet</translation>
+  </message>
+  <message>
+   <source>up axis as guessed</source>
+   <translation>Hochachse wie vermutet</translation>
+  </message>
+  <message>
+   <source>wall</source>
+   <translation>Wand</translation>
+  </message>
+  <message>
+   <source>west</source>
+   <translation>Westen</translation>
+  </message>
+  <message>
+   <source>worse than every LOA band</source>
+   <translation>schlechter als jede LOA-Klasse</translation>
+  </message>
+  <message>
+   <source>x from</source>
+   <translation>x von</translation>
+  </message>
+  <message>
+   <source>x to</source>
+   <translation>x bis</translation>
+  </message>
+  <message>
+   <source>y from</source>
+   <translation>y von</translation>
+  </message>
+  <message>
+   <source>y to</source>
+   <translation>y bis</translation>
+  </message>
+  <message>
+   <source>{0} ({1}) is not possible now.</source>
+   <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
+  </message>
+  <message>
+   <source>{0} failed: {1}: {2}.</source>
+   <translation>{0} ist gescheitert: {1}: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is no length; type one like 3.2, 320 cm or 10' 6".</source>
+   <translation>{0} ist keine Länge; möglich ist etwa 3,2 oder 320 cm oder 10' 6".</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions ({1}).</source>
+   <translation>{0} ist keine Liste von Befehlen ({1}).</translation>
+  </message>
+  <message>
+   <source>{0} is not a list of actions like {"action": "file.open", "path": …}.</source>
+   <translation>{0} ist keine Liste von Befehlen wie {"action": "file.open", "path": …}.</translation>
+  </message>
+  <message>
+   <source>{0} is not a number of metres, like 3.412.</source>
+   <translation>{0} ist keine Zahl von Metern wie 3.412.</translation>
+  </message>
+  <message>
+   <source>{0} is not where it was; say where it lies now.</source>
+   <translation>{0} ist nicht mehr, wo es war; bitte sagen, wo es jetzt liegt.</translation>
+  </message>
+  <message>
+   <source>{0} needs a window.</source>
+   <translation>{0} braucht ein Fenster.</translation>
+  </message>
+  <message>
+   <source>{0}: give it as an argument; there is nobody to ask.</source>
+   <translation>{0}: bitte als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{0}: give the path as an argument; there is nobody to ask.</source>
+   <translation>{0}: den Pfad als Argument angeben; es ist niemand zu fragen.</translation>
+  </message>
+  <message>
+   <source>{count} doors</source>
+   <translation>{count} Türen</translation>
+  </message>
+  <message>
+   <source>{free} free of {total}</source>
+   <translation>{free} frei von {total}</translation>
+  </message>
+  <message>
+   <source>{language} from the next start on.</source>
+   <translation>{language} ab dem nächsten Start.</translation>
+  </message>
+  <message>
+   <source>{low} to {high}</source>
+   <translation>{low} bis {high}</translation>
+  </message>
+  <message>
+   <source>{n} of {total}</source>
+   <translation>{n} von {total}</translation>
+  </message>
+  <message>
+   <source>{n} points</source>
+   <translation>{n} Punkte</translation>
+  </message>
+  <message>
+   <source>{n}, of them {rooms} rooms</source>
+   <translation>{n}, davon {rooms} Räume</translation>
+  </message>
+  <message>
+   <source>{planes} planes · {regions} regions · {doors} doors</source>
+   <translation>{planes} Ebenen · {regions} Regionen · {doors} Türen</translation>
+  </message>
+  <message>
+   <source>{share} sure</source>
+   <translation>{share} sicher</translation>
+  </message>
+  <message>
+   <source>{time} left</source>
+   <translation>noch {time}</translation>
+  </message>
+ </context>
+</TS>

@@ -1,0 +1,88 @@
+"""German is complete, its files are fresh, and sentences are found by what they were made from."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QTranslator
+from PySide6.QtWidgets import QApplication
+
+from floorcast_app import translation
+from floorcast_app.actions import all_actions
+from tools import translate
+
+FOLDER = Path(__file__).resolve().parents[2] / "resources" / "translations"
+
+
+@pytest.fixture
+def german(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv(translation.LANGUAGE_VARIABLE, "de")
+    assert translation.install_translator(qapp) == "de"
+    yield
+    monkeypatch.setenv(translation.LANGUAGE_VARIABLE, "en")
+    assert translation.install_translator(qapp) == "en"
+
+
+def test_no_string_is_without_german_words() -> None:
+    assert translate.missing("de") == []
+
+
+def test_the_collector_finds_what_is_shown() -> None:
+    found = translate.strings()
+    assert {"Open…", "Layout planes", "Search settings", "Saved {0}.", "Max width"} <= found
+    assert not any(s.startswith(("file.", "panels.")) or "*." in s for s in found)
+
+
+def test_gaps_are_kept() -> None:
+    for source, target in translate.read("de").items():
+        assert sorted(re.findall(r"\{\w*\}", source)) == sorted(re.findall(r"\{\w*\}", target)), source
+
+
+def test_german_is_not_english() -> None:
+    long_ones = {s: t for s, t in translate.read("de").items() if len(s.split()) > 2 and "{" not in s}
+    assert [s for s, t in long_ones.items() if s == t] == []
+
+
+def test_the_built_file_says_what_the_source_says(qapp: QApplication) -> None:
+    built = QTranslator()
+    assert built.load("floorcast_de", str(FOLDER))
+    for source, target in translate.read("de").items():
+        assert built.translate("Floorcast", source) == target, source
+
+
+def test_the_list_of_sentences_is_fresh() -> None:
+    kept = (FOLDER / "sentences.txt").read_text(encoding="utf-8").splitlines()
+    assert kept == sorted(translate.sentences())
+
+
+def test_actions_and_sentences_are_translated(german: None) -> None:
+    opening = next(a for a in all_actions() if a.id == "file.open")
+    assert translation.tr_action(opening)[0] == "Öffnen…"
+    assert translation.tr_text("Saved office.floorcast.") == "office.floorcast gespeichert."
+    assert translation.tr_text("Set doors.max_width to 1.6") == "doors.max_width auf 1.6 setzen"
+    assert translation.tr_text("Nothing of the kind.") == "Nothing of the kind."
+
+
+def test_qt_itself_speaks_german_where_its_translation_is_installed(german: None) -> None:
+    from PySide6.QtCore import QCoreApplication, QLibraryInfo
+
+    folder = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath))
+    if not (folder / "qtbase_de.qm").exists():
+        pytest.skip("this build of Qt brings no translations")
+    assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
+
+
+def test_english_is_left_as_it_is(qapp: QApplication) -> None:
+    assert translation.tr_text("Saved a.floorcast.") == "Saved a.floorcast."
+    assert translation.tr("Open…") == "Open…"
+
+
+def test_a_language_is_chosen_by_environment_wish_and_system(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(translation.LANGUAGE_VARIABLE, "de_AT")
+    assert translation.choose_language("en") == "de"
+    monkeypatch.delenv(translation.LANGUAGE_VARIABLE)
+    assert translation.choose_language("de") == "de"
+    assert translation.choose_language("xx") in translation.LANGUAGES

@@ -1,0 +1,216 @@
+"""Collects the English strings of the application and builds resources/translations: .ts, .qm, sentences.
+
+    python tools/translate.py            # update the .ts files (edit these) and build the rest from them
+    python tools/translate.py --missing  # list what a language has no words for; exit status 1 where any
+
+Qt's own lupdate does not know that menus, settings, presets and columns are data; this reads them where they
+are declared. Strings: literals given to ``tr``, ``translate`` and the like; texts and tips of actions;
+titles, tips and words in the tables of the panels; settings and presets. Sentences with gaps: f-strings that
+modules without Qt give to ``tell``, ``change``, ``apply``, ``correct``, ``start`` and to errors they raise.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "resources" / "translations"
+LANGUAGES = ("de",)
+CONTEXT = "Floorcast"
+CALLS = {"tr", "_tr", "words", "_words"}  # their first argument is shown
+SAID = {"tell", "change", "apply", "correct", "start", "reset", "ask_open", "ask_save", "ask_text", "ask_yes"}
+ERRORS = {"UsageError", "InputError", "OutputError", "FloorPlanError", "Cancelled"}
+DATA = {"Action", "Pane", "Column", "_word", "_tool"}  # classes and helpers whose texts are shown
+TABLES = {  # module-level tables whose strings are shown: all of them, or the values of a dict
+    "LAYER_TEXTS", "COLOUR_TEXTS", "SECTION_FIELDS", "FACINGS", "TABS", "TITLES", "TIPS", "STAGES",
+    "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
+}  # fmt: skip
+EXTRA = (  # words of the core that lists show
+    "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
+    "furniture", "auto", "greedy", "exact",
+)  # fmt: skip
+
+
+def strings() -> set[str]:
+    """Everything that is shown, in English."""
+    found = set(EXTRA)
+    for path in sorted((ROOT / "app").rglob("*.py")):
+        found |= set(_of_module(ast.parse(path.read_text(encoding="utf-8"))))
+    return {s for s in (*found, *_actions(), *_settings(), *_presets()) if re.search(r"[^\W\d_]{2}", s)}
+
+
+def sentences() -> set[str]:
+    """Those with numbered gaps."""
+    return {s for s in strings() if "{0}" in s}
+
+
+def _of_module(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            yield from _of_call(node)
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            yield from _of_table(node)
+
+
+def _of_call(node: ast.Call) -> Iterator[str]:
+    name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+    if name in CALLS and node.args:
+        yield from _literals(node.args[0])
+    elif name == "translate" and len(node.args) > 1:
+        yield from _literals(node.args[1])
+    elif name in DATA:
+        shown = node.args[1:] if name in ("Action", "_tool") else node.args
+        named = (k.value for k in node.keywords if k.arg in ("text", "tip", "title"))
+        wanted = (*shown, *named)
+        yield from (s for a in wanted for s in _texts(a) if _is_words(s))
+    elif name in SAID | ERRORS:
+        yield from (s for a in node.args[:3] for s in _texts(a) if _is_words(s))
+
+
+def _of_table(node: ast.Assign | ast.AnnAssign) -> Iterator[str]:
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+    names = {t.id for t in targets if isinstance(t, ast.Name)}
+    if not names & TABLES or node.value is None:
+        return
+    values = node.value.values if isinstance(node.value, ast.Dict) else [node.value]
+    for value in values:
+        yield from (
+            n.value for n in ast.walk(value) if isinstance(n, ast.Constant) and isinstance(n.value, str)
+        )
+
+
+def _literals(node: ast.expr) -> Iterator[str]:
+    """String constants among the values that ``node`` can have (also both arms of a condition)."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.IfExp):
+        yield from _literals(node.body)
+        yield from _literals(node.orelse)
+
+
+def _texts(node: ast.expr) -> Iterator[str]:
+    """The same, with f-strings as sentences with numbered gaps."""
+    if isinstance(node, ast.JoinedStr):
+        parts, gaps = [], 0
+        for piece in node.values:
+            if isinstance(piece, ast.Constant):
+                parts.append(str(piece.value))
+            else:
+                parts.append(f"{{{gaps}}}")
+                gaps += 1
+        yield "".join(parts)
+    elif isinstance(node, ast.IfExp):
+        yield from _texts(node.body)
+        yield from _texts(node.orelse)
+    else:
+        yield from _literals(node)
+
+
+def _is_words(text: str) -> bool:
+    """False for ids, shortcuts, names of icons and file patterns."""
+    plain = re.sub(r"\{\d+\}", "", text)
+    if "*." in plain or re.fullmatch(r"[a-z0-9_.\-/]*|[\w.]+:\w+", plain):
+        return False
+    return not re.fullmatch(
+        r"((Ctrl|Shift|Alt)\+)*\S{1,4}( \| \S+)*|(Ctrl|Shift|Alt)\+|Home|Escape|Delete|[\W\d]*", plain
+    )
+
+
+def _actions() -> Iterator[str]:
+    from floorcast_app.actions import all_actions
+
+    for action in all_actions():
+        yield action.text
+        yield action.tip
+
+
+def _settings() -> Iterator[str]:
+    from floorcast_app.panels.setting_fields import setting_stages
+
+    for stage in setting_stages():
+        yield from (stage.title, stage.help)
+        for field in stage.fields:
+            yield from (field.title, field.help)
+
+
+def _presets() -> Iterator[str]:
+    from floorcast_app.presets import presets
+
+    for preset in presets():
+        yield from (preset.name, preset.reason)
+
+
+def contexts() -> set[str]:
+    """The contexts that ``QCoreApplication.translate`` is called with, and our own."""
+    found = {CONTEXT}
+    for path in (ROOT / "app").rglob("*.py"):
+        found |= set(re.findall(r"\btranslate\(\s*\"(\w+)\"", path.read_text(encoding="utf-8")))
+    return found
+
+
+def read(language: str) -> dict[str, str]:
+    """The translations of a .ts file."""
+    path = FOLDER / f"floorcast_{language}.ts"
+    if not path.exists():
+        return {}
+    messages = ElementTree.parse(path).iter("message")
+    return {m.findtext("source") or "": m.findtext("translation") or "" for m in messages}
+
+
+def write(language: str, translations: dict[str, str]) -> None:
+    """The .ts file: one set of messages for each context, as Qt looks them up."""
+    root = ElementTree.Element("TS", version="2.1", language=language, sourcelanguage="en")
+    for name in sorted(contexts()):
+        context = ElementTree.SubElement(root, "context")
+        ElementTree.SubElement(context, "name").text = name
+        for source in sorted(translations):
+            message = ElementTree.SubElement(context, "message")
+            ElementTree.SubElement(message, "source").text = source
+            target = ElementTree.SubElement(message, "translation")
+            target.text = translations[source]
+            if not translations[source]:
+                target.set("type", "unfinished")
+    ElementTree.indent(root, " ")
+    path = FOLDER / f"floorcast_{language}.ts"
+    body = ElementTree.tostring(root, encoding="unicode")
+    path.write_text(f'<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n{body}\n', encoding="utf-8")
+
+
+def build(language: str) -> None:
+    """The .qm file, by Qt's lrelease."""
+    source = FOLDER / f"floorcast_{language}.ts"
+    import PySide6
+
+    tool = Path(PySide6.__file__).parent / ("lrelease.exe" if sys.platform == "win32" else "lrelease")
+    command = [str(tool), "-silent", str(source), "-qm", str(source.with_suffix(".qm"))]
+    subprocess.run(command, check=True)
+
+
+def missing(language: str) -> list[str]:
+    """Strings without words in ``language``."""
+    known = read(language)
+    return sorted(s for s in strings() if not known.get(s))
+
+
+def main() -> int:
+    if "--missing" in sys.argv:
+        lacking = [f"{language}: {text}" for language in LANGUAGES for text in missing(language)]
+        print("\n".join(lacking))  # noqa: T201
+        return 1 if lacking else 0
+    FOLDER.mkdir(exist_ok=True)
+    for language in LANGUAGES:
+        known = read(language)
+        write(language, {s: known.get(s, "") for s in strings()})
+        build(language)
+    (FOLDER / "sentences.txt").write_text("\n".join(sorted(sentences())) + "\n", encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
