@@ -89,6 +89,7 @@ class PlanCanvas(QWidget):
         self._pointer: Point | None = None  # where the pointer is in another pane
         self._builder = PlanBuilder(self.kinds, self)
         self._builder.built.connect(self._show)
+        self._builder.failed.connect(lambda text: workbench.ui.tell(text, "error"))
         self._listen()
         if workbench.plan is not None:
             self._builder.build(workbench.plan)
@@ -97,8 +98,8 @@ class PlanCanvas(QWidget):
 
     @property
     def ready(self) -> bool:
-        """True where the present plan is shown."""
-        return not self._builder.busy and (self._drawing is not None or self.workbench.plan is None)
+        """True where no plan is on its way to be shown."""
+        return not self._builder.busy
 
     @property
     def camera(self) -> Camera:

@@ -27,6 +27,7 @@ class PlanBuilder(QObject):
     """Builds the newest plan that it was given; older ones are dropped."""
 
     built = Signal(object)  # Drawing
+    failed = Signal(str)  # a sentence
 
     _done = Signal(int, object)
 
@@ -58,10 +59,14 @@ class PlanBuilder(QObject):
         self._serial += 1
         self._waiting = False
 
-    def _take(self, serial: int, drawing: Drawing) -> None:
-        if serial == self._serial:
-            self._waiting = False
-            self.built.emit(drawing)
+    def _take(self, serial: int, made: object) -> None:
+        if serial != self._serial:
+            return
+        self._waiting = False
+        if isinstance(made, Exception):
+            self.failed.emit(f"This plan cannot be drawn ({type(made).__name__}: {made}).")
+        else:
+            self.built.emit(made)
 
 
 class _Task(QRunnable):
@@ -70,8 +75,11 @@ class _Task(QRunnable):
         self._builder, self._serial, self._plan, self._kinds = builder, serial, plan, kinds
 
     def run(self) -> None:
-        drawing = Drawing(self._plan, self._kinds)
         try:
-            self._builder._done.emit(self._serial, drawing)
+            made: object = Drawing(self._plan, self._kinds)
+        except Exception as error:  # noqa: BLE001 (a bug in a drawing must not leave the pane waiting)
+            made = error
+        try:
+            self._builder._done.emit(self._serial, made)
         except RuntimeError:  # the pane was closed meanwhile
             return

@@ -6,14 +6,14 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRect, Qt
+from PySide6.QtCore import QLineF, QPointF, QRect, Qt
 from PySide6.QtGui import QBrush, QColor, QImage, QPainter, QPolygonF, QTransform
 
 from floorcast_app.layers.free_space import PREDICTED, SEEN_FREE, SOLID, UNSEEN, FreeSpaceLayer
 from floorcast_app.layers.observed import PointsLayer, TrajectoryLayer
 from floorcast_app.layers.planes import PlaneShape, PlanesLayer
 from floorcast_app.theme import Colours
-from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, lines_path, path_of, pen
+from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, path_of, pen
 
 DOT = 0.035  # metres that a dot covers when zoomed in
 SMALLEST_DOT, LARGEST_DOT = 2, 5  # device pixels
@@ -25,27 +25,34 @@ class PointsView:
     """Dots, splatted into an image: faster than drawing each, and crisp at every zoom."""
 
     def __init__(self, model: PointsLayer) -> None:
-        self._model = model
+        self._xy = np.ascontiguousarray(model.xy.T, dtype=np.float64)
+        self._tone = np.where(model.facing < 0, 0, 1 + model.facing // 2)
 
     def paint(self, painter: QPainter, frame: Frame) -> None:
         """The dots in the colours of their planes."""
         width, height = (round(v * frame.ratio) for v in (frame.camera.width, frame.camera.height))
-        canvas = np.zeros((height, width), dtype=np.uint32)
         c = frame.colours
         palette = np.array([_argb(n, a) for n, a in ((c.faint, 0.55), (c.plane_ew, 0.9), (c.plane_ns, 0.9))])
         size = int(min(max(DOT * frame.camera.scale * frame.ratio, SMALLEST_DOT), LARGEST_DOT))
-        at = np.floor(frame.camera.to_screen(self._model.xy) * frame.ratio).astype(np.int64) - size // 2
-        seen = (at[:, 0] > -size) & (at[:, 0] < width) & (at[:, 1] > -size) & (at[:, 1] < height)
-        facing = self._model.facing[seen]
-        tone = palette[np.where(facing < 0, 0, 1 + facing // 2)]
-        x, y = at[seen].T
-        for dx in range(size):
-            for dy in range(size):
-                u, v = x + dx, y + dy
-                inside = (u >= 0) & (u < width) & (v >= 0) & (v < height)
-                canvas[v[inside], u[inside]] = tone[inside]
-        image = QImage(canvas.data, width, height, width * 4, QImage.Format.Format_ARGB32_Premultiplied)
+        # With an edge as wide as a dot, no dot needs to be cut.
+        row = width + 2 * size
+        canvas = np.zeros((height + 2 * size, row), dtype=np.uint32)
+        x, y = (self._pixels(frame, axis) + (size - size // 2) for axis in (0, 1))
+        seen = np.flatnonzero((x >= 0) & (x < width + size) & (y >= 0) & (y < height + size))
+        at = y[seen].astype(np.intp) * row + x[seen]
+        tone = palette.astype(np.uint32)[self._tone[seen]]
+        flat = canvas.ravel()
+        for shift in range(size * size):
+            flat[at + (shift // size * row + shift % size)] = tone
+        inner = np.ascontiguousarray(canvas[size:-size, size:-size])
+        image = QImage(inner.data, width, height, width * 4, QImage.Format.Format_ARGB32_Premultiplied)
         draw_image(painter, frame, image)
+
+    def _pixels(self, frame: Frame, axis: int) -> NDArray[np.int32]:
+        """(N,) device pixels along an axis."""
+        origin = frame.camera.point(0.0, 0.0)[axis] * frame.ratio
+        scale = frame.camera.scale * frame.ratio * (1 - 2 * axis)
+        return np.floor(self._xy[axis] * scale + origin).astype(np.int32)
 
 
 class TrajectoryView:
@@ -72,7 +79,7 @@ class PlanesView:
 
     def __init__(self, model: PlanesLayer) -> None:
         self._shapes = model.shapes
-        self._runs = {s.item: lines_path(s.lines()) for s in model.shapes}
+        self._runs = {s.item: [QLineF(*line) for line in s.lines().reshape(-1, 4)] for s in model.shapes}
 
     def paint(self, painter: QPainter, frame: Frame) -> None:
         """Red for planes across x, green for those across y."""
@@ -80,9 +87,10 @@ class PlanesView:
         for shape in shown:
             _draw_dotted(painter, frame, shape)
         painter.setTransform(frame.transform(), True)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)  # they run along the pixels
         for shape in shown:
-            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 2.6))
-            painter.drawPath(self._runs[shape.item])
+            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 3.0))
+            painter.drawLines(self._runs[shape.item])
 
 
 class FreeSpaceView:
