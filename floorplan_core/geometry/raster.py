@@ -73,6 +73,8 @@ def _edges(polygon: Any) -> list[tuple[float, float, float, float]]:
     """x0, y0, x1, y1 of every edge of every ring."""
     edges: list[tuple[float, float, float, float]] = []
     for part in getattr(polygon, "geoms", [polygon]):
+        if part.geom_type != "Polygon":  # lines and points, which an intersection leaves, hold no cell
+            continue
         for ring in (part.exterior, *part.interiors):
             c = shapely.get_coordinates(ring)
             edges += [tuple(e) for e in np.hstack([c[:-1], c[1:]]).tolist()]

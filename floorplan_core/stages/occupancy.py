@@ -3,10 +3,13 @@
 In: voxel columns and the wall runs of the planes. Out: :class:`OccupancyGrid`. Rays leave a building through
 windows and glass: the free cells out there must not drive the cover. Patches of free cells, cut apart by the
 walls, belong to the universe if the sensor was in them, or if enough of them lies under ceiling (over floor
-where the survey shows no ceiling). Cost: linear in cells.
+where the survey shows no ceiling). Where no viewpoint told free space, it is also looked at from its wide
+places (:mod:`floorplan_core.stages.guessed_viewpoints`). Cost: linear in cells.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +19,17 @@ from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.columns import LEVEL, height_mask
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
+from floorplan_core.stages.guessed_viewpoints import seen_from_the_middle
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _HEIGHTS = (0.5, 1.9)  # m, between which the best slice is looked for
 _TYPICAL = 2.0  # times the indoor share: what the surely inside must show for ceiling (floor) to decide
-_BEHIND_DOOR = 0.3  # of the indoor share, for what a door joins to the inside: little floor is seen through it
+_BEHIND_DOOR = (
+    0.3  # of the indoor share, for what a door joins to the inside: little floor is seen through it
+)
+_PATCHY = 0.6  # of the indoor share, where free space was guessed between patches of floor and ceiling
 _BEYOND = 0.6  # m behind a door, where the space that it opens is looked for
 _BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
 
@@ -31,6 +38,10 @@ def slice_map(
     evidence: Evidence, planes: tuple[LayoutPlane, ...], doors: tuple[Door, ...], config: OccupancyConfig
 ) -> OccupancyGrid:
     """Sample the voxel map and keep the free cells that the cover has to explain."""
+    if evidence.inferred:
+        evidence = replace(
+            evidence, free=seen_from_the_middle(evidence.free, evidence.occupied, evidence.cell)
+        )
     height = _best_height(evidence) if config.slice_height is None else config.slice_height
     level = min(int(height / LEVEL), 60)
     free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
@@ -89,7 +100,8 @@ def _indoors(
         if float(np.sum((s * area * sure)[1:]))
         > _TYPICAL * config.indoor_share * float(np.sum((area * sure)[1:]))
     ]
-    inside = visited | (large & (shown[0] >= config.indoor_share)) if shown else visited | large
+    least = config.indoor_share * (_PATCHY if evidence.inferred else 1.0)
+    inside = visited | (large & (shown[0] >= least)) if shown else visited | large
     within = large & (np.maximum(floor, ceiling) >= _BEHIND_DOOR * config.indoor_share)
     inside = _through_doors(inside, within, doors, label, evidence)
     inside[0] = False

@@ -110,11 +110,10 @@ class RoomGrower:
 
     def _fill_notches(self, polygon: Any, others: Any) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
+        sides = self._sides(polygon)  # a notch that is filled leaves the sides of the others as they are
+        lines = np.array([shapely.LineString([s.start, s.end]) for s in sides])
         for notch in polygons_of(shapely.difference(shapely.box(*polygon.bounds), polygon)):
-            sides = self._sides(polygon)
-            contact = np.array(
-                [shapely.LineString([s.start, s.end]).intersection(notch).length for s in sides]
-            )
+            contact = shapely.length(shapely.intersection(lines, notch))
             known = float(contact @ np.array([s.observed for s in sides]))
             if known < _KNOWN * contact.sum() and self._unknown(notch, polygon, others):
                 polygon = _largest(polygon.union(notch))
