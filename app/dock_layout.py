@@ -48,14 +48,23 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
 def _resize(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: str) -> None:
     width, height = max(window.width(), 900), max(window.height(), 600)
     left, right = min(max(224, round(0.14 * width)), 280), min(max(264, round(0.19 * width)), 380)
-    middle = (width - left - right) // 2
-    columns = [docks[k] for k in ("layers", "space", "planes", "properties")]
-    window.resizeDocks(columns, [left, middle, middle, right], H)
+    shown = [k for k in ("layers", "space", "planes", "properties") if k not in HIDDEN[workspace]]
+    if "planes" not in shown:
+        shown.insert(-1, "floor_plan")  # it stands below the layout planes, in their column
+    sizes = {"layers": left, "properties": right}
+    rest = width - sum(sizes.get(k, 0) for k in shown)
+    middle = rest // sum(k not in sizes for k in shown)
+    window.resizeDocks([docks[k] for k in shown], [sizes.get(k, middle) for k in shown], H)
     tables, line = round(TABLES[workspace] * height), round(LINE[workspace] * height)
-    window.resizeDocks([docks["items"], docks["timeline"]], [tables, line], V)
+    if "timeline" in HIDDEN[workspace]:
+        line = 0
+    else:
+        window.resizeDocks([docks["timeline"]], [line], V)
+    window.resizeDocks([docks["floor_plan"], docks["items"]], [height - tables - line, tables], V)
     half = (height - tables - line) // 2
     for above, below in (("space", "free_space"), ("planes", "floor_plan"), ("properties", "evidence")):
-        window.resizeDocks([docks[above], docks[below]], [half, half], V)
+        if not {above, below} & set(HIDDEN[workspace]):
+            window.resizeDocks([docks[above], docks[below]], [half, half], V)
 
 
 class TitleBars:

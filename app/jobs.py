@@ -76,7 +76,8 @@ class Jobs:
     def start(self, text: str, work: Callable[[Observer], Any], done: Callable[[Any], None]) -> None:
         """Run ``work(observer)`` in a thread, then ``done(result)`` in the main thread."""
         previous = self._thread
-        self._cancel.cancel()
+        if self.running:  # a survey that an earlier job opened goes on listening to that job's token
+            self._cancel.cancel()
         self._cancel = CancelToken()
         self._serial += 1
         observer = JobObserver(self._cancel, self._posting(self._serial), self)

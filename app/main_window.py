@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QCoreApplication, QSettings, QSize, Qt, QTimer
+from PySide6.QtCore import QByteArray, QCoreApplication, QPoint, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -12,6 +13,7 @@ from PySide6.QtGui import (
     QGuiApplication,
     QImage,
     QKeyEvent,
+    QPainter,
     QResizeEvent,
 )
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
@@ -42,7 +44,7 @@ MENU_TITLES = {
     "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
     "correct": "Correct", "measure": "Measure", "help": "Help",
 }  # fmt: skip
-NOT_IN_MENUS = ("plan.set", "plan.preset", "view.look", "measure.set", "edit.history")
+NOT_IN_MENUS = ("view.pane", "plan.set", "plan.preset", "view.look", "measure.set", "edit.history")
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
@@ -96,6 +98,12 @@ class MainWindow(QMainWindow):
         assert widget is not None
         return widget
 
+    def show_pane(self, id: str) -> None:
+        """Bring a pane to the front."""
+        self.pane(id)
+        self.docks[id].show()
+        self.docks[id].raise_()
+
     def picture(self, pane: str, width: int, height: int) -> QImage:
         """A picture of a pane, or of the whole window ("window")."""
         if pane == "window":
@@ -115,7 +123,8 @@ class MainWindow(QMainWindow):
         with output_file(path) as staging:
             if not self.picture(pane, width, height).save(str(staging), _picture_format(path)):
                 raise OutputError(f"Cannot write the picture {path.name}.")
-        self.tell(_tr("Wrote {name}.").format(name=path.name))
+        if not self.unattended:
+            self.tell(_tr("Wrote {name}.").format(name=path.name))
 
     def copy_picture(self, pane: str) -> None:
         """The picture of a pane into the clipboard."""
@@ -124,7 +133,8 @@ class MainWindow(QMainWindow):
 
     def tell(self, text: str, kind: str = "info") -> None:
         """A sentence to the user, gone after a while; errors stay until they are clicked."""
-        self.toast.tell(text, kind)
+        if kind != "info" or not self.unattended:  # nobody is there to read that all went well
+            self.toast.tell(text, kind)
 
     # ---- what happens -----------------------------------------------------------------------------------
 
@@ -255,11 +265,36 @@ class MainWindow(QMainWindow):
         """The whole window; one smaller than it can be is scaled."""
         size, wanted = self.size(), QSize(width, height)
         self.resize(wanted)
-        QApplication.processEvents()
+        self._settle()
         image = self.grab().toImage()
+        self._paint_space(image)
         self.resize(size)
         smooth = Qt.TransformationMode.SmoothTransformation
         return image if image.size() == wanted else image.scaled(wanted, mode=smooth)
+
+    def _settle(self) -> None:
+        """Let the panes show what holds now."""
+        end = time.monotonic() + LAST_WAIT
+        while time.monotonic() < end:
+            QApplication.processEvents()
+            if all(getattr(dock.widget(), "ready", True) for dock in self.docks.values()):
+                break
+            time.sleep(0.01)
+
+    def _paint_space(self, image: QImage) -> None:
+        """The 3D pane draws in a thread, when it finds the time: a picture of it is drawn here and now."""
+        space = self.docks["space"].widget()
+        if space is None or not space.isVisible() or self.empty.isVisible():
+            return
+        painter = QPainter(image)
+        painter.drawImage(
+            space.mapTo(self, QPoint(0, 0)), self.picture("space", space.width(), space.height())
+        )
+        direct = Qt.FindChildOption.FindDirectChildrenOnly
+        for child in space.findChildren(QWidget, options=direct):
+            if child.isVisible():
+                painter.drawPixmap(child.mapTo(self, QPoint(0, 0)), child.grab())
+        painter.end()
 
     def _restore(self) -> None:
         geometry = self._settings.value("window/geometry")

@@ -28,6 +28,7 @@ class QtInterface:
         self._shows: dict[str, Callable[..., Any]] = {
             "picture": window.save_picture,
             "copy_picture": window.copy_picture,
+            "pane": window.show_pane,
             "quit": window.close,
         }
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 WORKSPACES = ("inspect", "plan", "run")
-MARGIN = 1.15  # of the plan's extent, so that it does not touch the edges
+MARGIN = 1.4  # of the plan's extent: dimensions and legends stand around it
 
 
 def fit(workbench: Workbench) -> None:
@@ -54,6 +54,11 @@ def set_look(workbench: Workbench, **values: Any) -> None:
         workbench.view.set(**values)
     except TypeError as error:
         raise UsageError(f"The look has no such field ({error}).") from error
+
+
+def show_pane(workbench: Workbench, pane: str) -> None:
+    """Bring one pane to the front, by its id."""
+    workbench.ui.show("pane", id=pane)
 
 
 def toggle_units(workbench: Workbench) -> None:
@@ -115,6 +120,7 @@ ACTIONS: tuple[Action, ...] = (
         "zoom-in",
         lambda w: w.selection.item is not None,
     ),
+    Action("view.pane", "Show a pane…", show_pane, "Bring one pane to the front."),
     Action("view.look", "Set the view…", set_look, "Camera, ceiling cut and section box by numbers."),
     *(_layer(layer) for layer in LAYERS),
     *(_colour(by) for by in POINT_COLOURS),

@@ -102,6 +102,19 @@ def test_escape_cancels_what_runs_and_the_last_plan_stays(script: ScriptedApplic
     assert len(workbench.plan.regions) == len(before.regions)
 
 
+def test_a_run_is_replayed(script: ScriptedApplication) -> None:
+    workbench, whole = script.workbench, script.workbench.plan
+    script.run("plan.replay", every=100.0)
+    timeline = workbench.timeline
+    assert len(timeline) >= 3 and timeline[-1].plan is not None
+    assert [s.time for s in timeline] == sorted(s.time for s in timeline)
+    assert timeline[-1].seen > timeline[0].seen
+    workbench.show_snapshot(len(timeline) - 1)
+    assert workbench.plan is timeline[-1].plan
+    workbench.show_snapshot(None)
+    assert workbench.plan is whole
+
+
 def test_undo_brings_back_a_setting(script: ScriptedApplication) -> None:
     before = script.workbench.state
     script.run("plan.set", name="doors.max_width", value=1.1)
