@@ -72,6 +72,7 @@ def show(console: Console, records: list[Record], last: list[Record]) -> None:
     if any(r["half"] != "shared" for r in records):
         console.print(rich_table("Totals (means of surveys)", tables.totals(records, last)))
         console.print(rich_table("Prediction by exploration", tables.exploration(records)))
+        console.print(rich_table("Confidence of doors", tables.reliability(records)))
     worst = store.worst_records(records, 1)[0]
     console.print(f"Worst: [bold]{worst['name']}[/] ({worst['half']}): {headline(worst)}", highlight=False)
 

@@ -10,12 +10,14 @@ from pathlib import Path
 from benchmarks.accuracy.cases import Case
 from benchmarks.accuracy.overlay import draw_overlay
 from benchmarks.accuracy.record import Record, record
+from benchmarks.accuracy.reliability import Keeper, judge
 from benchmarks.accuracy.surveys import cache_folder, cloud, survey_folder
 from floorplan_core.config import Config
 from floorplan_core.errors import Cancelled, FloorPlanError
 from floorplan_core.evaluation import compare, load_truth, read_plan
 from floorplan_core.evaluation.plan_file import PlanFile
 from floorplan_core.evaluation.truth import Truth
+from floorplan_core.model import FloorPlan
 from floorplan_core.observer import Observer
 
 OTHER_CLASSIFIER = "shape"  # compared with the paper's, which is the default
@@ -33,19 +35,18 @@ def run_cases(cases: list[Case], config: Config, report: Callable[[Case, Record]
 
 def run_case(case: Case, config: Config) -> Record:
     """Simulate (or find) the survey, plan it, compare. No plan scores zero and keeps its reason."""
-    observer = Observer()
-    folder = survey_folder(case, observer)
+    keeper = Keeper()
+    folder = survey_folder(case, keeper)
     truth = load_truth(folder)
-    started, error = time.perf_counter(), ""
-    labels: dict[str, str] = {}
+    started, error, made = time.perf_counter(), "", None
     try:
-        plan, labels = make_plan(cloud(folder), plan_folder(case), config, observer)
+        made = make_plan(cloud(folder), plan_folder(case), config, keeper)
     except Cancelled:
         raise
     except FloorPlanError as failure:
-        plan, error = nothing(), str(failure)
+        error = str(failure)
     except Exception as failure:  # noqa: BLE001  a bug costs this survey, not the whole run; it is printed and kept
-        plan, error = nothing(), f"{type(failure).__name__}: {failure}"
+        error = f"{type(failure).__name__}: {failure}"
     seconds = time.perf_counter() - started
     head = {
         "name": case.name,
@@ -54,21 +55,33 @@ def run_case(case: Case, config: Config) -> Record:
         "error": error,
         "seconds": seconds,
     }
-    return {**head, **record(compare(plan, truth), compare(relabelled(plan, labels), truth))}
+    if made is None:
+        return {**head, **record(compare(nothing(), truth)), "apertures": []}
+    plan, file = made
+    other = relabelled(file, other_labels(plan, config))
+    judged = judge(keeper.apertures(config.doors), plan, truth)
+    return {**head, **record(compare(file, truth), compare(other, truth)), "apertures": judged}
 
 
-def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> tuple[PlanFile, dict[str, str]]:
-    """The main job, down to the file that others read; and each region's label by the other classifier."""
+def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> tuple[FloorPlan, PlanFile]:
+    """The main job, down to the file that others read."""
     from floorplan_core import open_survey, process
     from floorplan_core.exporters.geojson import GeoJsonExporter
-    from floorplan_core.plugins import find_classifier
 
     out.mkdir(parents=True, exist_ok=True)
     file = out / "plan.geojson"
     file.unlink(missing_ok=True)
-    plan, other = process(open_survey(points), config, observer), find_classifier(OTHER_CLASSIFIER)
+    plan = process(open_survey(points), config, observer)
     GeoJsonExporter().write(plan, file)
-    return read_plan(file), {r.id: other.classify(r, plan.regions, config) for r in plan.regions}
+    return plan, read_plan(file)
+
+
+def other_labels(plan: FloorPlan, config: Config) -> dict[str, str]:
+    """Each region's label by the other classifier."""
+    from floorplan_core.plugins import find_classifier
+
+    other = find_classifier(OTHER_CLASSIFIER)
+    return {r.id: other.classify(r, plan.regions, config) for r in plan.regions}
 
 
 def relabelled(plan: PlanFile, labels: dict[str, str]) -> PlanFile:

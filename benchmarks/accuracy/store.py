@@ -39,6 +39,10 @@ the same in a mean.
   wall.
 - **predicted area right**: share of the floor that was predicted, not seen, which is floor in truth.
 """
+RELIABILITY = """Every aperture in a wall, reported or not, by the probability that it was given, and how many
+are doors or openings in truth (shut ones too). The probabilities were fitted on the tuning half; in the other
+column they are used as they are. Doors below `doors.min_confidence` are not reported.
+"""
 
 
 def load() -> list[Record]:
@@ -78,6 +82,7 @@ def write_document(records: Sequence[Record], last: Sequence[Record]) -> None:
     parts += ["\n## Prediction, by how much was seen\n", tables.markdown(tables.exploration(simulated))]
     parts += ["\n## What hurts\n", tables.markdown(tables.factors(simulated))]
     parts += ["\n## Single surveys\n", tables.markdown(tables.surveys(simulated))]
+    parts += ["\n## Confidence of doors\n", RELIABILITY, tables.markdown(tables.reliability(simulated))]
     parts += [_failures(records), "\n## The five worst\n", *_pictures(records)]
     DOCUMENT.parent.mkdir(parents=True, exist_ok=True)
     DOCUMENT.write_text("\n".join(p for p in parts if p) + "\n", encoding="utf-8")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from benchmarks.accuracy import reliability as bins
 from benchmarks.accuracy.cases import HALVES
 from benchmarks.accuracy.record import METRICS, Metric, Record, mean, worst
 
@@ -128,6 +129,27 @@ def factors(records: Sequence[Record]) -> Table:
             group = [r for r in records if r["factors"].get(factor) == level]
             rows.append([f"{factor}: {level}", str(len(group)), *(number(mean(group, k), 3) for k in keys)])
     return ["factor", "surveys", "dimension m", "F1", "IoU", "door P", "door R"], rows
+
+
+def reliability(records: Sequence[Record]) -> Table:
+    """Confidence of apertures against truth, both halves side by side; the last row is the Brier score."""
+    judged = {
+        h: [tuple(a) for r in records if r["half"] == h for a in r.get("apertures", [])] for h in HALVES
+    }
+    header = [
+        "confidence",
+        *(f"{half}: {what}" for half in HALVES for what in ("apertures", "mean", "doors")),
+    ]
+    columns = [bins.table(judged[half]) for half in HALVES]
+    rows = [
+        [
+            both[0][0],
+            *(cell for _, n, mean, share in both for cell in (str(n), number(mean, 2), number(share, 2))),
+        ]
+        for both in zip(*columns, strict=True)
+    ]
+    scores = [["", "", number(bins.brier(judged[half]), 4)] for half in HALVES]
+    return header, [*rows, ["Brier score", *(cell for score in scores for cell in score)]]
 
 
 def markdown(table: Table) -> str:

@@ -162,8 +162,8 @@ def _lintel_share(profile: WallProfile, gap: Aperture) -> float:
 def _pieces(profile: WallProfile) -> Float:
     """(K, 2) pieces of wall that stand on the floor, metres along the plane."""
     solid = np.concatenate([[False], is_solid(profile), [False]]).astype(np.int8)
-    ends: Float = profile.start + np.flatnonzero(np.diff(solid)).reshape(-1, 2) * profile.step
-    return np.asarray(ends[ends[:, 1] - ends[:, 0] >= _PIECE], dtype=np.float64)
+    ends = np.flatnonzero(np.diff(solid)).reshape(-1, 2).astype(np.float64)
+    return profile.start + profile.step * ends[(ends[:, 1] - ends[:, 0]) * profile.step >= _PIECE]
 
 
 def _corner_gap(

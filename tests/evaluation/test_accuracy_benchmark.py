@@ -11,14 +11,16 @@ from evaluation_cases import perfect_plan, truth
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from benchmarks.accuracy import record, runner, store, tables
+from benchmarks.accuracy import record, reliability, runner, store, tables
 from benchmarks.accuracy.__main__ import main
 from benchmarks.accuracy.cases import HALVES, Case, chosen_cases, simulated_cases
 from benchmarks.accuracy.overlay import draw_overlay
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.evaluation import compare, parse_plan
+from floorplan_core.evaluation.truth import Truth, TruthDoor
 from floorplan_core.evaluation.truths import parse_truth
+from tests.factories import l_corridor
 
 
 def perfect():
@@ -124,3 +126,27 @@ def test_the_overlay_shows_regions_truth_and_a_missed_room(tmp_path):
     colours = {colour for _, colour in pixels.getcolors(pixels.width * pixels.height)}
     for colour in (overlay.FILL["room"], overlay.FILL["corridor"], overlay.LOST, overlay.FOUND, overlay.INK):
         assert colour in colours
+
+
+def test_confidences_are_compared_with_what_is_there():
+    sure = [(0.97, True)] * 9 + [(0.97, False)]
+    doubtful = [(0.1, False)] * 3
+    rows = {name: (count, mean, share) for name, count, mean, share in reliability.table(sure + doubtful)}
+    assert rows["0.95 to 1"] == (10, pytest.approx(0.97), pytest.approx(0.9))
+    assert rows["0.05 to 0.2"] == (3, pytest.approx(0.1), 0.0)
+    assert rows["0.4 to 0.6"] == (0, None, None)
+    assert sum(count for count, _, _ in rows.values()) == 13
+    assert reliability.brier([(1.0, True), (0.0, False)]) == 0.0
+    assert reliability.brier([(0.5, True)]) == pytest.approx(0.25)
+
+
+def test_apertures_are_judged_in_the_axes_of_the_building():
+    plan = l_corridor()
+    doors = list(plan.doors)
+    line = plan.to_world(doors[0].line())
+    low, high = line.min(axis=0) - 0.05, line.max(axis=0) + 0.05
+    only = TruthDoor((*low, *high), doors[0].axis)
+    judged = reliability.judge(doors, plan, Truth("truth", doors=(only,)))
+    assert judged[0] == (pytest.approx(doors[0].confidence, abs=1e-3), True)
+    assert not any(right for _, right in judged[1:])
+    assert len(judged) == len(doors)
