@@ -31,6 +31,7 @@ TABLES = {  # module-level tables whose strings are shown: all of them, or the v
     "LAYER_TEXTS", "COLOUR_TEXTS", "SECTION_FIELDS", "FACINGS", "TABS", "TITLES", "TIPS", "STAGES",
     "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
 }  # fmt: skip
+LETTERS = {"N", "E", "S", "W"}  # of the compass
 EXTRA = (  # words of the core that lists show
     "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
     "furniture", "auto", "greedy", "exact",
@@ -42,7 +43,8 @@ def strings() -> set[str]:
     found = set(EXTRA)
     for path in sorted((ROOT / "app").rglob("*.py")):
         found |= set(_of_module(ast.parse(path.read_text(encoding="utf-8"))))
-    return {s for s in (*found, *_actions(), *_settings(), *_presets()) if re.search(r"[^\W\d_]{2}", s)}
+    shown = {s for s in (*found, *_actions(), *_settings(), *_presets()) if re.search(r"[^\W\d_]{2}", s)}
+    return shown | LETTERS
 
 
 def sentences() -> set[str]:

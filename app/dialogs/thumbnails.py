@@ -1,17 +1,19 @@
-"""Thumbnails of recent surveys: the picture inside a project, or one kept beside the user's settings."""
+"""Thumbnails of recent surveys: the picture inside a project, or one kept in the user's cache."""
 
 from __future__ import annotations
 
 import hashlib
-import zipfile
 from pathlib import Path
+from typing import Any
 
 import platformdirs
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QPixmap
 
-MEMBER = "thumbnail.png"  # of a .floorcast project
-BIGGEST = 4_000_000  # bytes of a picture that is believed
+from floorplan_core.project_file import SUFFIX, read_thumbnail
+
+KEPT_SIZE = (504, 312)  # px: three times a card, for dense displays
+DELAY = 600  # ms after a plan, so that it was brought into view
 
 
 def thumbnail(path: Path, size: QSize) -> QPixmap | None:
@@ -25,7 +27,7 @@ def thumbnail(path: Path, size: QSize) -> QPixmap | None:
 
 
 def keep_thumbnail(path: Path, image: QImage) -> None:
-    """Remember the picture for a survey that is no project; a full disk is no reason to fail."""
+    """Remember the picture of a survey or project; a full disk is no reason to fail."""
     target = _place(path)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -34,16 +36,32 @@ def keep_thumbnail(path: Path, image: QImage) -> None:
     image.save(str(target), "PNG")
 
 
+class ThumbnailKeeper(QObject):
+    """Keeps a picture of the floor plan of what the window shows, whenever it was planned or saved."""
+
+    def __init__(self, window: Any) -> None:
+        super().__init__(window)
+        self._window = window
+        self._soon = QTimer(self)
+        self._soon.setSingleShot(True)
+        self._soon.timeout.connect(self.keep)
+        workbench = window.workbench
+        workbench.plan_changed.connect(lambda plan: plan is not None and self._soon.start(DELAY))
+        workbench.recent_changed.connect(lambda _: self._soon.start(DELAY))
+
+    def keep(self) -> None:
+        """Keep it now."""
+        workbench = self._window.workbench
+        survey = workbench.state.survey
+        if workbench.plan is None or survey is None:
+            return
+        image = self._window.picture("floor_plan", *KEPT_SIZE)
+        for path in filter(None, (survey.path, workbench.project)):
+            keep_thumbnail(path, image)
+
+
 def _inside(path: Path) -> bytes | None:
-    if path.suffix.lower() != ".floorcast":
-        return None
-    try:
-        with zipfile.ZipFile(path) as archive:
-            if archive.getinfo(MEMBER).file_size > BIGGEST:
-                return None
-            return archive.read(MEMBER)
-    except (OSError, KeyError, zipfile.BadZipFile):
-        return None
+    return read_thumbnail(path) if path.suffix.lower() == SUFFIX else None
 
 
 def _kept(path: Path) -> bytes | None:

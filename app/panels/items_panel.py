@@ -60,7 +60,7 @@ class ItemTable(QTableView):
             widest = max((metrics.horizontalAdvance(t) for t in texts), default=0)
             title = heading.horizontalAdvance(tr(column_.title)) + ARROW_WIDTH
             pin = PIN_WIDTH if at == 0 else 0
-            self.setColumnWidth(OWN + at, max(widest + pin, title) + 2 * GRID)
+            self.setColumnWidth(OWN + at, max(widest + pin, title) + 3 * GRID)
 
     def follow(self) -> None:
         """Show the workbench's selection."""

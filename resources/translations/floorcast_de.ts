@@ -528,6 +528,10 @@
    <translation>Aufnahme oder Projekt hier ablegen</translation>
   </message>
   <message>
+   <source>E</source>
+   <translation>O</translation>
+  </message>
+  <message>
    <source>Edit</source>
    <translation>Bearbeiten</translation>
   </message>
@@ -1236,6 +1240,10 @@
    <translation>Von Hand verschoben</translation>
   </message>
   <message>
+   <source>N</source>
+   <translation>N</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -1750,6 +1758,10 @@
   <message>
    <source>Run</source>
    <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>S</source>
+   <translation>S</translation>
   </message>
   <message>
    <source>Save</source>
@@ -2522,6 +2534,10 @@
   <message>
    <source>Voxels</source>
    <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>W</source>
+   <translation>W</translation>
   </message>
   <message>
    <source>Wall</source>
@@ -3451,6 +3467,10 @@
    <translation>Aufnahme oder Projekt hier ablegen</translation>
   </message>
   <message>
+   <source>E</source>
+   <translation>O</translation>
+  </message>
+  <message>
    <source>Edit</source>
    <translation>Bearbeiten</translation>
   </message>
@@ -4159,6 +4179,10 @@
    <translation>Von Hand verschoben</translation>
   </message>
   <message>
+   <source>N</source>
+   <translation>N</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -4673,6 +4697,10 @@
   <message>
    <source>Run</source>
    <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>S</source>
+   <translation>S</translation>
   </message>
   <message>
    <source>Save</source>
@@ -5445,6 +5473,10 @@
   <message>
    <source>Voxels</source>
    <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>W</source>
+   <translation>W</translation>
   </message>
   <message>
    <source>Wall</source>
@@ -6374,6 +6406,10 @@
    <translation>Aufnahme oder Projekt hier ablegen</translation>
   </message>
   <message>
+   <source>E</source>
+   <translation>O</translation>
+  </message>
+  <message>
    <source>Edit</source>
    <translation>Bearbeiten</translation>
   </message>
@@ -7082,6 +7118,10 @@
    <translation>Von Hand verschoben</translation>
   </message>
   <message>
+   <source>N</source>
+   <translation>N</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -7596,6 +7636,10 @@
   <message>
    <source>Run</source>
    <translation>Fahrt</translation>
+  </message>
+  <message>
+   <source>S</source>
+   <translation>S</translation>
   </message>
   <message>
    <source>Save</source>
@@ -8368,6 +8412,10 @@
   <message>
    <source>Voxels</source>
    <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>W</source>
+   <translation>W</translation>
   </message>
   <message>
    <source>Wall</source>
