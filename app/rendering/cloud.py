@@ -205,11 +205,11 @@ def _in_blocks(cloud: Cloud, colour: object) -> Colours:
 
 
 def _density(xyz: Floats) -> float:
-    """Points for each m2 of surface: neighbours of a random pattern lie half of 1 / sqrt(density) apart."""
+    """Points for each m2 of surface, told from the median distance of neighbours in a random pattern."""
     from scipy.spatial import cKDTree
 
     sample = xyz[:_SAMPLE]
     if len(sample) < 2:
         return 1.0
     apart = float(np.median(cKDTree(sample).query(sample, k=2)[0][:, 1]))
-    return 0.25 / max(apart, 1e-3) ** 2 * len(xyz) / len(sample)
+    return math.log(2) / math.pi / max(apart, 1e-3) ** 2 * len(xyz) / len(sample)

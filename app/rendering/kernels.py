@@ -10,7 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-_OPTIONS = {"cache": True, "nogil": True, "fastmath": True, "error_model": "numpy"}
+# no fast arithmetic: it rounds differently from one place in memory to another
+_OPTIONS = {"cache": True, "nogil": True, "error_model": "numpy"}
+_FAR = 1e30  # pixels
 _LOW = np.uint64(0xFFFFFFFF)
 _SHIFT = np.uint64(32)
 
@@ -126,7 +128,7 @@ def _fill(a, b, c, colour, alpha, hatch, towards, inverse, image):  # type: igno
     bottom = min(int(np.ceil(max(a[1], b[1], c[1]) - 0.5)), height)
     for v in range(top, bottom):
         y = v + 0.5
-        left, right = np.inf, -np.inf
+        left, right = _FAR, -_FAR
         for e in range(3):
             p, q = (a, b) if e == 0 else ((b, c) if e == 1 else (c, a))
             if (p[1] <= y) != (q[1] <= y):

@@ -26,6 +26,7 @@ PULL = 0.05  # metres by which surfaces win over points on them
 DEEP = 0.018  # of the span: a step in depth that is shaded by half
 SLIVER = 0.04  # metres below the floor and above the cut that are still drawn: noise of a flat surface
 BELOW = 0.35  # metres below the floor: what lies deeper is seen through glass or belongs to another storey
+GRID_REACH = 5.0  # spans from the centre to which the grid is drawn
 EVERYTHING = 1e9  # metres
 
 
@@ -184,13 +185,19 @@ def splat_size(cloud: Cloud, count: int, camera: Camera) -> int:
 
 
 def grid_bounds(request: FrameRequest) -> tuple[float, float, float, float] | None:
-    """x0, y0, x1, y1 under which the floor's grid lies: plan, else points; None where there is nothing."""
-    if request.look.section is not None:
-        return request.look.section
-    if request.scene.bounds is not None:
-        return request.scene.bounds
-    cloud = request.cloud
-    return None if cloud is None or not len(cloud) else cloud.extent
+    """x0, y0, x1, y1 under which the floor's grid lies: plan, else points; None where there is nothing.
+
+    Not farther than can be seen: stray points may lie kilometres away.
+    """
+    cloud, bounds = request.cloud, request.look.section or request.scene.bounds
+    if bounds is None and cloud is not None and len(cloud):
+        bounds = cloud.extent
+    if bounds is None:
+        return None
+    reach, (x, y) = GRID_REACH * request.look.span, request.look.centre
+    x0, y0 = max(bounds[0], x - reach), max(bounds[1], y - reach)
+    x1, y1 = min(bounds[2], x + reach), min(bounds[3], y + reach)
+    return (x0, y0, x1, y1) if x0 < x1 and y0 < y1 else None
 
 
 def backdrop(rows: int, theme: str) -> Pixels:
