@@ -22,6 +22,7 @@ from floorplan_core.steps import StepMemory
 
 if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan
+    from floorplan_core.model.storey import Storey
     from floorplan_core.pipeline import FloorPlanner
 
 Keep = Callable[[PointChunk], None]
@@ -39,7 +40,7 @@ class PlanningSession:
         self._read_with = config
         self._planner: FloorPlanner | None = None
         self._read_seconds = 0.0
-        self._memory = StepMemory()
+        self._memory: dict[int, StepMemory] = {}  # by storey
         self._names = NamesOfSession()
 
     @classmethod
@@ -103,19 +104,34 @@ class PlanningSession:
         observer.stage_finished("read", self._read_seconds)
         self._planner, self.ready = planner, True
 
-    def plan(self, config: Config, corrections: Sequence[Correction], observer: Observer) -> FloorPlan:
+    def storeys(self, config: Config) -> tuple[Storey, ...]:
+        """The storeys of the survey, lowest first; none for a grid map. After :meth:`read`."""
+        if self._grid_map is not None:
+            return ()
+        planner = self._read_planner()
+        planner.config = config
+        return planner.storeys()
+
+    def plan(
+        self, config: Config, corrections: Sequence[Correction], observer: Observer, storey: int = 0
+    ) -> FloorPlan:
         """The plan with these settings and corrections; only what they change is made anew.
 
+        :param storey: number of the storey, 0 for the lowest or the only one.
         :raises NoPlanError: where no plan can be made; :class:`UsageError` before :meth:`read`.
         """
+        memory = self._memory.setdefault(storey, StepMemory())
         if self._grid_map is not None:
             from floorplan_core.grid_pipeline import plan_grid_map
 
-            return plan_grid_map(self._grid_map, config, observer, corrections, self._memory, self._names)
-        planner = self._planner
-        if planner is None or not self.ready:
-            raise UsageError("The survey was not read yet.")
+            return plan_grid_map(self._grid_map, config, observer, corrections, memory, self._names)
+        planner = self._read_planner()
         planner.config, planner.observer = config, observer
-        plan = planner.plan(corrections=corrections, memory=self._memory)
+        plan = planner.plan(storey=storey, corrections=corrections, memory=memory)
         plan.seconds["read"] = self._read_seconds - plan.seconds["integrate"]
         return plan
+
+    def _read_planner(self) -> FloorPlanner:
+        if self._planner is None or not self.ready:
+            raise UsageError("The survey was not read yet.")
+        return self._planner

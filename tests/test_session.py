@@ -136,6 +136,13 @@ def test_opening_the_bundled_survey_tells_how_far_it_is():
     assert "read" in observer.stages
 
 
+def test_a_survey_of_one_storey_says_so(session):
+    (storey,) = session.storeys(Config())
+    assert storey.number == 0
+    with pytest.raises(UsageError, match="no storey 1"):
+        session.plan(Config(), (), Observer(), storey=1)
+
+
 def test_a_grid_map_is_a_session_too(tmp_path):
     """Read at once; labels, names, merges and splits work, walls say that they do not."""
     from PIL import Image
