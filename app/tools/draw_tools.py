@@ -13,6 +13,7 @@ class TwoPointTool(Tool):
     """First click begins, second click ends; between them the line follows the pointer."""
 
     cursor = "cross"
+    lights: tuple[str, ...] = ()
     role = "wall"
 
     def __init__(self, workbench: object) -> None:
@@ -130,6 +131,7 @@ class SplitTool(TwoPointTool):
     """Cuts a region in two."""
 
     name = "split"
+    lights = ("region",)
     role = "selection"
     hint = "Click on two sides of a region: it is cut along the line."
 

@@ -86,6 +86,12 @@ class Tool:
     name = "select"
     hint = ""
     cursor = "arrow"  # or "cross"
+    lights: tuple[str, ...] = (
+        "check",
+        "door",
+        "plane",
+        "region",
+    )  # kinds of items that light up under the pointer
 
     def __init__(self, workbench: Workbench) -> None:
         self.workbench = workbench

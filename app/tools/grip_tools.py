@@ -92,6 +92,7 @@ class PlaneTool(GripTool):
 
     name = "plane"
     kind = "plane"
+    lights = ("plane",)
     drawing = PlaneLine
     hint = "Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane."
 
@@ -101,5 +102,6 @@ class DoorTool(GripTool):
 
     name = "door"
     kind = "door"
+    lights = ("door",)
     drawing = DoorLine
     hint = "Click both jambs on a wall, or type the width. Drag the ends of the selected door."

@@ -12,6 +12,7 @@ class MergeTool(Tool):
 
     name = "merge"
     cursor = "cross"
+    lights = ("region",)
     hint = "Click a region, then the region that it is one with."
 
     def __init__(self, workbench: object) -> None:

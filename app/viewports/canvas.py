@@ -31,7 +31,7 @@ from floorcast_app.layers.source import source_of
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.selection import Item
 from floorcast_app.state import DocumentState
-from floorcast_app.tools.gestures import At, Point
+from floorcast_app.tools.gestures import At, Point, Tool
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.listening import listen, stop_listening
@@ -297,18 +297,19 @@ class PlanCanvas(QWidget):
 
     # ---- what lies where --------------------------------------------------------------------------------
 
-    def item_at(self, position: QPointF) -> Item | None:
-        """The thing at a pixel of this widget."""
+    def item_at(self, position: QPointF, kinds: tuple[str, ...] = Tool.lights) -> Item | None:
+        """The thing at a pixel of this widget, of the kinds asked for."""
         if self._drawing is None:
             return None
         camera = self.camera
         x, y = camera.to_plan(position.x(), position.y())
         reach = HIT / camera.scale
         check = self._check_at(x, y, reach)
-        if check is not None:
+        if check is not None and "check" in kinds:
             return check
+        wanted = tuple(kind for kind in self.hits if kind in kinds)
         dotted = self.dotted and self.workbench.tool == "select"
-        return self._drawing.source.hits.at(x, y, reach, self._look(), self.hits, dotted)
+        return self._drawing.source.hits.at(x, y, reach, self._look(), wanted, dotted)
 
     def _check_at(self, x: float, y: float, reach: float) -> Item | None:
         import numpy as np
@@ -330,7 +331,7 @@ class PlanCanvas(QWidget):
             x,
             y,
             camera.scale,
-            self.item_at(event.position()),
+            self.item_at(event.position(), self.workbench.toolbox.tool.lights),
             bool(keys & Qt.KeyboardModifier.ShiftModifier),
             bool(keys & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier)),
         )
@@ -347,8 +348,9 @@ class PlanCanvas(QWidget):
         here = self.camera.to_plan(event.position().x(), event.position().y())
         self.workbench.pointer_moved.emit(*here)
         if self._press is None:
-            self.workbench.selection.hover(self.item_at(event.position()))
-            self.workbench.toolbox.move(self._at(event))
+            at = self._at(event)
+            self.workbench.selection.hover(at.item)
+            self.workbench.toolbox.move(at)
             return
         start, button = self._press
         if not self._moved and (event.position() - start).manhattanLength() <= CLICK:

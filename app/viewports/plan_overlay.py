@@ -23,6 +23,7 @@ from floorcast_app.viewports.plan_frame import (
     path_of,
     pen,
     round_length,
+    text_size,
 )
 from floorcast_app.viewports.plan_observed_views import across
 
@@ -105,12 +106,17 @@ def paint_cross(painter: QPainter, frame: Frame, at: Point) -> None:
             painter.drawLine(QPointF(x + near * dx, y + near * dy), QPointF(x + far * dx, y + far * dy))
 
 
+def bar_length(frame: Frame) -> tuple[float, float]:
+    """Of the scale bar: metres or feet, and pixels."""
+    unit = format.METRES_PER_FOOT if frame.look.units == "ft-in" else 1.0
+    value = round_length(BAR / frame.camera.scale / unit)
+    return value, value * unit * frame.camera.scale
+
+
 def paint_scale(painter: QPainter, frame: Frame) -> None:
     """A bar of a round length at the lower left."""
     feet = frame.look.units == "ft-in"
-    unit = format.METRES_PER_FOOT if feet else 1.0
-    value = round_length(BAR / frame.camera.scale / unit)
-    width = value * unit * frame.camera.scale
+    value, width = bar_length(frame)
     x, y = MARGIN, frame.camera.height - MARGIN
     text = f"{value:g} ft" if feet else (f"{value * 100:g} cm" if value < 1 else f"{value:g} m")
     box = QRectF(x - 8, y - 24, width + 16, 32)
@@ -143,8 +149,10 @@ def paint_compass(painter: QPainter, frame: Frame, source: PlanSource) -> None:
 
 
 def paint_hint(painter: QPainter, frame: Frame, text: str) -> None:
-    """What the tool in hand expects, at the lower middle."""
-    draw_chip(painter, frame, text, (frame.camera.width / 2, frame.camera.height - 22), SMALL, strong=False)
+    """What the tool in hand expects, at the lower middle, above the scale bar where they would meet."""
+    middle, half = frame.camera.width / 2, text_size(text, SMALL, 500)[0] / 2 + 8
+    raised = 40 if middle - half < MARGIN + bar_length(frame)[1] + 14 else 0
+    draw_chip(painter, frame, text, (middle, frame.camera.height - 22 - raised), SMALL, strong=False)
 
 
 # ---- marks ----------------------------------------------------------------------------------------------
