@@ -31,15 +31,20 @@ class ItemModel(QAbstractTableModel):
         self.kind, self.columns = kind, COLUMNS[kind]
         self._workbench = workbench
         self._things: tuple[Any, ...] = ()
+        self._keys: dict[int, list[Any]] = {}  # by column
+        self._words: list[str] = []  # by row
 
     def reload(self) -> None:
         """Another plan, other units or another theme."""
         self.beginResetModel()
         self._things = things(self._workbench.plan, self.kind)
+        self._keys, self._words = {}, []
         self.endResetModel()
 
     def repaint_marks(self) -> None:
         """Eyes and locks changed."""
+        for mark in (EYE, LOCK):
+            self._keys.pop(mark, None)
         if self._things:
             self.dataChanged.emit(self.index(0, EYE), self.index(len(self._things) - 1, LOCK))
 
@@ -47,6 +52,24 @@ class ItemModel(QAbstractTableModel):
         """What stands in the first rows of a column, each text once."""
         units = self._workbench.view.look.units
         return {column.text(thing, units, _words) for thing in self._things[:MOST_MEASURED]}
+
+    def sort_keys(self, column: int) -> list[Any]:
+        """What the rows are sorted by, made once: a sort compares each row a dozen times."""
+        if column not in self._keys:
+            self._keys[column] = (
+                [self.index(r, column).data(SORT_ROLE) or False for r in range(len(self._things))]
+                if column < OWN
+                else [self.columns[column - OWN].key(thing) for thing in self._things]
+            )
+        return self._keys[column]
+
+    def row_words(self, row: int) -> str:
+        """All texts of a row, for the filter."""
+        if not self._words:
+            units = self._workbench.view.look.units
+            texts = [[c.text(t, units, _words) for c in self.columns] for t in self._things]
+            self._words = [" ".join(cells).casefold() for cells in texts]
+        return self._words[row]
 
     def item(self, row: int) -> Item:
         """What stands in ``row``."""
@@ -150,12 +173,15 @@ class ItemFilter(QSortFilterProxyModel):
         if not self._typed:
             return True
         model = self.sourceModel()
-        cells = [str(model.index(row, c).data() or "") for c in range(OWN, model.columnCount())]
-        words = " ".join(cells).casefold()
+        assert isinstance(model, ItemModel)
+        words = model.row_words(row)
         return all(typed in words for typed in self._typed)
 
     def lessThan(self, left: Index, right: Index) -> bool:
-        return bool(left.data(SORT_ROLE) < right.data(SORT_ROLE))
+        model = self.sourceModel()
+        assert isinstance(model, ItemModel)
+        keys = model.sort_keys(left.column())
+        return bool(keys[left.row()] < keys[right.row()])
 
 
 def _words(text: str) -> str:
