@@ -30,7 +30,15 @@ DATA = {"Action", "Pane", "Column", "_word", "_tool"}  # classes and helpers who
 TABLES = {  # module-level tables whose strings are shown: all of them, or the values of a dict
     "LAYER_TEXTS", "COLOUR_TEXTS", "SECTION_FIELDS", "FACINGS", "TABS", "TITLES", "TIPS", "STAGES",
     "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
+    "hint", "area_hint", "nowhere", "empty",  # of tools and plan panes
 }  # fmt: skip
+CORE = (  # modules of the core whose sentences reach the window as warnings or assumptions
+    "readers/axes.py",
+    "stages/corrections_doors.py",
+    "stages/corrections_regions.py",
+    "stages/corrections_walls.py",
+    "stages/exact_cover.py",
+)
 LETTERS = {"N", "E", "S", "W"}  # of the compass
 EXTRA = (  # words of the core that lists show
     "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
@@ -43,6 +51,9 @@ def strings() -> set[str]:
     found = set(EXTRA)
     for path in sorted((ROOT / "app").rglob("*.py")):
         found |= set(_of_module(ast.parse(path.read_text(encoding="utf-8"))))
+    for name in CORE:
+        path = ROOT / "floorplan_core" / name
+        found |= set(_sentences_of(ast.parse(path.read_text(encoding="utf-8"))))
     shown = {s for s in (*found, *_actions(), *_settings(), *_presets()) if re.search(r"[^\W\d_]{2}", s)}
     return shown | LETTERS
 
@@ -58,6 +69,15 @@ def _of_module(tree: ast.Module) -> Iterator[str]:
             yield from _of_call(node)
         elif isinstance(node, ast.Assign | ast.AnnAssign):
             yield from _of_table(node)
+
+
+def _sentences_of(tree: ast.Module) -> Iterator[str]:
+    """Strings that begin like a sentence and end like one, docstrings left out."""
+    docs = {id(n.value) for n in ast.walk(tree) if isinstance(n, ast.Expr)}
+    inner = {id(v) for n in ast.walk(tree) if isinstance(n, ast.JoinedStr) for v in n.values}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr | ast.Constant) and id(node) not in docs | inner:
+            yield from (s for s in _texts(node) if re.fullmatch(r"[A-Z].* .*\.", s))
 
 
 def _of_call(node: ast.Call) -> Iterator[str]:

@@ -340,12 +340,40 @@
    <translation>Klick</translation>
   </message>
   <message>
+   <source>Click a region, then the region that it is one with.</source>
+   <translation>Eine Region anklicken, dann die, mit der sie eins ist.</translation>
+  </message>
+  <message>
+   <source>Click both jambs on a wall, or type the width. Drag the ends of the selected door.</source>
+   <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
+  </message>
+  <message>
+   <source>Click on a wall: a door needs one.</source>
+   <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
+  </message>
+  <message>
+   <source>Click on two sides of a region: it is cut along the line.</source>
+   <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
+  </message>
+  <message>
+   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
+   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click to select, drag what is selected.</source>
    <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
   </message>
   <message>
+   <source>Click two points; walls, corners and jambs snap, Shift measures square. A measures an area.</source>
+   <translation>Zwei Punkte anklicken; Wände, Ecken und Laibungen fangen, Umschalt misst rechtwinklig. A misst eine Fläche.</translation>
+  </message>
+  <message>
    <source>Click two regions that are one.</source>
    <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Click where the wall begins and where it ends. Type a length to be exact.</source>
+   <translation>Anfang und Ende der Wand anklicken. Eine getippte Länge gilt genau.</translation>
   </message>
   <message>
    <source>Close</source>
@@ -520,6 +548,10 @@
    <translation>Das Ende einer gewählten Tür ziehen</translation>
   </message>
   <message>
+   <source>Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane.</source>
+   <translation>Die gewählte Ebene ziehen oder ihre Lage tippen (@0.05 verschiebt um so viel). Zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
    <source>Draw a wall that the machine does not know: two clicks.</source>
    <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
   </message>
@@ -686,6 +718,10 @@
   <message>
    <source>Free space</source>
    <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Freiraum, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Free space ends there along a straight line</source>
@@ -966,6 +1002,10 @@
   <message>
    <source>Layout planes</source>
    <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout planes appear here once a survey is planned.</source>
+   <translation>Hier erscheinen die Wandebenen, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Layout segments</source>
@@ -1258,6 +1298,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No plan yet.</source>
+   <translation>Noch kein Plan.</translation>
   </message>
   <message>
    <source>No setting is called that.</source>
@@ -2202,6 +2246,10 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Grundriss, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>The floor plan as a picture into the clipboard.</source>
@@ -3279,12 +3327,40 @@
    <translation>Klick</translation>
   </message>
   <message>
+   <source>Click a region, then the region that it is one with.</source>
+   <translation>Eine Region anklicken, dann die, mit der sie eins ist.</translation>
+  </message>
+  <message>
+   <source>Click both jambs on a wall, or type the width. Drag the ends of the selected door.</source>
+   <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
+  </message>
+  <message>
+   <source>Click on a wall: a door needs one.</source>
+   <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
+  </message>
+  <message>
+   <source>Click on two sides of a region: it is cut along the line.</source>
+   <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
+  </message>
+  <message>
+   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
+   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click to select, drag what is selected.</source>
    <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
   </message>
   <message>
+   <source>Click two points; walls, corners and jambs snap, Shift measures square. A measures an area.</source>
+   <translation>Zwei Punkte anklicken; Wände, Ecken und Laibungen fangen, Umschalt misst rechtwinklig. A misst eine Fläche.</translation>
+  </message>
+  <message>
    <source>Click two regions that are one.</source>
    <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Click where the wall begins and where it ends. Type a length to be exact.</source>
+   <translation>Anfang und Ende der Wand anklicken. Eine getippte Länge gilt genau.</translation>
   </message>
   <message>
    <source>Close</source>
@@ -3459,6 +3535,10 @@
    <translation>Das Ende einer gewählten Tür ziehen</translation>
   </message>
   <message>
+   <source>Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane.</source>
+   <translation>Die gewählte Ebene ziehen oder ihre Lage tippen (@0.05 verschiebt um so viel). Zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
    <source>Draw a wall that the machine does not know: two clicks.</source>
    <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
   </message>
@@ -3625,6 +3705,10 @@
   <message>
    <source>Free space</source>
    <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Freiraum, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Free space ends there along a straight line</source>
@@ -3905,6 +3989,10 @@
   <message>
    <source>Layout planes</source>
    <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout planes appear here once a survey is planned.</source>
+   <translation>Hier erscheinen die Wandebenen, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Layout segments</source>
@@ -4197,6 +4285,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No plan yet.</source>
+   <translation>Noch kein Plan.</translation>
   </message>
   <message>
    <source>No setting is called that.</source>
@@ -5141,6 +5233,10 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Grundriss, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>The floor plan as a picture into the clipboard.</source>
@@ -6218,12 +6314,40 @@
    <translation>Klick</translation>
   </message>
   <message>
+   <source>Click a region, then the region that it is one with.</source>
+   <translation>Eine Region anklicken, dann die, mit der sie eins ist.</translation>
+  </message>
+  <message>
+   <source>Click both jambs on a wall, or type the width. Drag the ends of the selected door.</source>
+   <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
+  </message>
+  <message>
+   <source>Click on a wall: a door needs one.</source>
+   <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
+  </message>
+  <message>
+   <source>Click on two sides of a region: it is cut along the line.</source>
+   <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
+  </message>
+  <message>
+   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
+   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click to select, drag what is selected.</source>
    <translation>Klicken wählt, das Gewählte lässt sich ziehen.</translation>
   </message>
   <message>
+   <source>Click two points; walls, corners and jambs snap, Shift measures square. A measures an area.</source>
+   <translation>Zwei Punkte anklicken; Wände, Ecken und Laibungen fangen, Umschalt misst rechtwinklig. A misst eine Fläche.</translation>
+  </message>
+  <message>
    <source>Click two regions that are one.</source>
    <translation>Zwei Regionen anklicken, die eine sind.</translation>
+  </message>
+  <message>
+   <source>Click where the wall begins and where it ends. Type a length to be exact.</source>
+   <translation>Anfang und Ende der Wand anklicken. Eine getippte Länge gilt genau.</translation>
   </message>
   <message>
    <source>Close</source>
@@ -6398,6 +6522,10 @@
    <translation>Das Ende einer gewählten Tür ziehen</translation>
   </message>
   <message>
+   <source>Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane.</source>
+   <translation>Die gewählte Ebene ziehen oder ihre Lage tippen (@0.05 verschiebt um so viel). Zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
    <source>Draw a wall that the machine does not know: two clicks.</source>
    <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
   </message>
@@ -6564,6 +6692,10 @@
   <message>
    <source>Free space</source>
    <translation>Freiraum</translation>
+  </message>
+  <message>
+   <source>Free space appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Freiraum, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Free space ends there along a straight line</source>
@@ -6844,6 +6976,10 @@
   <message>
    <source>Layout planes</source>
    <translation>Wandebenen</translation>
+  </message>
+  <message>
+   <source>Layout planes appear here once a survey is planned.</source>
+   <translation>Hier erscheinen die Wandebenen, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>Layout segments</source>
@@ -7136,6 +7272,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>No plan yet.</source>
+   <translation>Noch kein Plan.</translation>
   </message>
   <message>
    <source>No setting is called that.</source>
@@ -8080,6 +8220,10 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The floor plan appears here once a survey is planned.</source>
+   <translation>Hier erscheint der Grundriss, sobald eine Aufnahme geplant ist.</translation>
   </message>
   <message>
    <source>The floor plan as a picture into the clipboard.</source>
