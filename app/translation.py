@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -49,7 +50,7 @@ def tr_text(text: str) -> str:
         found = pattern.fullmatch(text)
         translated = tr(source) if found else source
         if found and translated != source:
-            return _filled(translated, found.groups())
+            return _filled(translated, [tr_text(group) for group in found.groups()])
     return text
 
 
@@ -92,5 +93,5 @@ def _as_pattern(source: str) -> re.Pattern[str]:
     return re.compile("(.+?)".join(re.escape(p) for p in parts))
 
 
-def _filled(translated: str, groups: tuple[str, ...]) -> str:
+def _filled(translated: str, groups: Sequence[str]) -> str:
     return re.sub(r"\{(\d+)\}", lambda m: groups[int(m[1])], translated)

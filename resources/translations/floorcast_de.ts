@@ -424,6 +424,14 @@
    <translation>Sicherheit</translation>
   </message>
   <message>
+   <source>Coordinates are in {0}, as asked.</source>
+   <translation>Die Koordinaten sind {0}, wie verlangt.</translation>
+  </message>
+  <message>
+   <source>Coordinates are taken as {0} ({1}); force it with input.unit.</source>
+   <translation>Die Koordinaten gelten als {0} ({1}); vorgeben mit input.unit.</translation>
+  </message>
+  <message>
    <source>Copy</source>
    <translation>Kopieren</translation>
   </message>
@@ -1692,6 +1700,10 @@
    <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
   </message>
   <message>
+   <source>Regions {0} do not touch: they cannot be merged.</source>
+   <translation>Die Regionen {0} berühren sich nicht: Sie lassen sich nicht vereinen.</translation>
+  </message>
+  <message>
    <source>Regions, doors, planes</source>
    <translation>Regionen, Türen, Ebenen</translation>
   </message>
@@ -2236,6 +2248,34 @@
    <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
   </message>
   <message>
+   <source>The door accepted at {0} is not there any more.</source>
+   <translation>Die bei {0} bestätigte Tür ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is in no wall: there is none within {1} m.</source>
+   <translation>Die bei {0} hinzugefügte Tür liegt in keiner Wand: Im Umkreis von {1} m ist keine.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is too narrow for one.</source>
+   <translation>Die bei {0} hinzugefügte Tür ist zu schmal für eine Tür.</translation>
+  </message>
+  <message>
+   <source>The door at {0} cannot be {1} m wide.</source>
+   <translation>Die Tür bei {0} kann nicht {1} m breit sein.</translation>
+  </message>
+  <message>
+   <source>The door {0} at {1} is not there any more.</source>
+   <translation>Die von Hand geänderte Tür ({0}) bei {1} ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} groups of free cells by {1} rectangles was not found within {2} s; raise cover.time_limit or use cover.solver greedy.</source>
+   <translation>Die exakte Überdeckung von {0} Gruppen freier Zellen durch {1} Rechtecke wurde in {2} s nicht gefunden; cover.time_limit erhöhen oder cover.solver greedy nehmen.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} parts of the plan was not proven optimal within {1} s; raise cover.time_limit.</source>
+   <translation>Für {0} Teile des Plans wurde in {1} s nicht bewiesen, dass ihre Überdeckung die beste ist; cover.time_limit erhöhen.</translation>
+  </message>
+  <message>
    <source>The fewest planes that explain all segments</source>
    <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
   </message>
@@ -2246,6 +2286,14 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is taken as up (flat layers, low extent, level path); force it with input.up.</source>
+   <translation>Die {0}-Achse der Datei gilt als Hochachse (flache Lagen, geringe Höhe, ebener Weg); vorgeben mit input.up.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is up, as asked.</source>
+   <translation>Die {0}-Achse der Datei weist nach oben, wie verlangt.</translation>
   </message>
   <message>
    <source>The floor plan appears here once a survey is planned.</source>
@@ -2262,6 +2310,14 @@
   <message>
    <source>The height at which most free space was seen</source>
    <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} does not part region {1} in two of {2} m2.</source>
+   <translation>Die Linie bei {0} teilt die Region {1} nicht in zwei von je {2} m².</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} splits no region.</source>
+   <translation>Die Linie bei {0} teilt keine Region.</translation>
   </message>
   <message>
    <source>The look has no such field ({0}).</source>
@@ -2294,6 +2350,14 @@
   <message>
    <source>The ratio of widths for a passage.</source>
    <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, labelled or named by hand, is gone.</source>
+   <translation>Die von Hand bezeichnete oder benannte Region bei {0} gibt es nicht mehr.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, merged with others, is gone.</source>
+   <translation>Die mit anderen vereinte Region bei {0} gibt es nicht mehr.</translation>
   </message>
   <message>
    <source>The regions on its two sides</source>
@@ -2334,6 +2398,14 @@
   <message>
    <source>The two points of a measurement are the same; give two different ones.</source>
    <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>The wall added at {0} is too short for one.</source>
+   <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall moved from {0} is not there any more.</source>
+   <translation>Die von {0} verschobene Wand ist nicht mehr da.</translation>
   </message>
   <message>
    <source>There is a region {0} already.</source>
@@ -2772,6 +2844,10 @@
    <translation>automatisch</translation>
   </message>
   <message>
+   <source>centimetres</source>
+   <translation>Zentimeter</translation>
+  </message>
+  <message>
    <source>check</source>
    <translation>Messung</translation>
   </message>
@@ -2796,6 +2872,14 @@
    <translation>exakt</translation>
   </message>
   <message>
+   <source>feet</source>
+   <translation>Fuß</translation>
+  </message>
+  <message>
+   <source>floor to ceiling is then {0} m</source>
+   <translation>vom Boden zur Decke sind es dann {0} m</translation>
+  </message>
+  <message>
    <source>frame {yaw} (support {share})</source>
    <translation>Achsen {yaw} (Stützung {share})</translation>
   </message>
@@ -2810,6 +2894,14 @@
   <message>
    <source>greedy (paper) or exact (integer program, HiGHS).</source>
    <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>metres</source>
+   <translation>Meter</translation>
+  </message>
+  <message>
+   <source>millimetres</source>
+   <translation>Millimeter</translation>
   </message>
   <message>
    <source>mostly predicted</source>
@@ -2856,6 +2948,14 @@
    <translation>Regionen {n}</translation>
   </message>
   <message>
+   <source>rejected</source>
+   <translation>verworfen</translation>
+  </message>
+  <message>
+   <source>resized</source>
+   <translation>in der Breite geändert</translation>
+  </message>
+  <message>
    <source>room</source>
    <translation>Raum</translation>
   </message>
@@ -2866,6 +2966,14 @@
   <message>
    <source>south</source>
    <translation>Süden</translation>
+  </message>
+  <message>
+   <source>the height is then {0} m</source>
+   <translation>die Höhe ist dann {0} m</translation>
+  </message>
+  <message>
+   <source>the points are flat, so only their extent could tell</source>
+   <translation>die Punkte sind flach, nur ihre Ausdehnung kann es sagen</translation>
   </message>
   <message>
    <source>type it here</source>
@@ -3411,6 +3519,14 @@
    <translation>Sicherheit</translation>
   </message>
   <message>
+   <source>Coordinates are in {0}, as asked.</source>
+   <translation>Die Koordinaten sind {0}, wie verlangt.</translation>
+  </message>
+  <message>
+   <source>Coordinates are taken as {0} ({1}); force it with input.unit.</source>
+   <translation>Die Koordinaten gelten als {0} ({1}); vorgeben mit input.unit.</translation>
+  </message>
+  <message>
    <source>Copy</source>
    <translation>Kopieren</translation>
   </message>
@@ -4679,6 +4795,10 @@
    <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
   </message>
   <message>
+   <source>Regions {0} do not touch: they cannot be merged.</source>
+   <translation>Die Regionen {0} berühren sich nicht: Sie lassen sich nicht vereinen.</translation>
+  </message>
+  <message>
    <source>Regions, doors, planes</source>
    <translation>Regionen, Türen, Ebenen</translation>
   </message>
@@ -5223,6 +5343,34 @@
    <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
   </message>
   <message>
+   <source>The door accepted at {0} is not there any more.</source>
+   <translation>Die bei {0} bestätigte Tür ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is in no wall: there is none within {1} m.</source>
+   <translation>Die bei {0} hinzugefügte Tür liegt in keiner Wand: Im Umkreis von {1} m ist keine.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is too narrow for one.</source>
+   <translation>Die bei {0} hinzugefügte Tür ist zu schmal für eine Tür.</translation>
+  </message>
+  <message>
+   <source>The door at {0} cannot be {1} m wide.</source>
+   <translation>Die Tür bei {0} kann nicht {1} m breit sein.</translation>
+  </message>
+  <message>
+   <source>The door {0} at {1} is not there any more.</source>
+   <translation>Die von Hand geänderte Tür ({0}) bei {1} ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} groups of free cells by {1} rectangles was not found within {2} s; raise cover.time_limit or use cover.solver greedy.</source>
+   <translation>Die exakte Überdeckung von {0} Gruppen freier Zellen durch {1} Rechtecke wurde in {2} s nicht gefunden; cover.time_limit erhöhen oder cover.solver greedy nehmen.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} parts of the plan was not proven optimal within {1} s; raise cover.time_limit.</source>
+   <translation>Für {0} Teile des Plans wurde in {1} s nicht bewiesen, dass ihre Überdeckung die beste ist; cover.time_limit erhöhen.</translation>
+  </message>
+  <message>
    <source>The fewest planes that explain all segments</source>
    <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
   </message>
@@ -5233,6 +5381,14 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is taken as up (flat layers, low extent, level path); force it with input.up.</source>
+   <translation>Die {0}-Achse der Datei gilt als Hochachse (flache Lagen, geringe Höhe, ebener Weg); vorgeben mit input.up.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is up, as asked.</source>
+   <translation>Die {0}-Achse der Datei weist nach oben, wie verlangt.</translation>
   </message>
   <message>
    <source>The floor plan appears here once a survey is planned.</source>
@@ -5249,6 +5405,14 @@
   <message>
    <source>The height at which most free space was seen</source>
    <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} does not part region {1} in two of {2} m2.</source>
+   <translation>Die Linie bei {0} teilt die Region {1} nicht in zwei von je {2} m².</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} splits no region.</source>
+   <translation>Die Linie bei {0} teilt keine Region.</translation>
   </message>
   <message>
    <source>The look has no such field ({0}).</source>
@@ -5281,6 +5445,14 @@
   <message>
    <source>The ratio of widths for a passage.</source>
    <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, labelled or named by hand, is gone.</source>
+   <translation>Die von Hand bezeichnete oder benannte Region bei {0} gibt es nicht mehr.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, merged with others, is gone.</source>
+   <translation>Die mit anderen vereinte Region bei {0} gibt es nicht mehr.</translation>
   </message>
   <message>
    <source>The regions on its two sides</source>
@@ -5321,6 +5493,14 @@
   <message>
    <source>The two points of a measurement are the same; give two different ones.</source>
    <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>The wall added at {0} is too short for one.</source>
+   <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall moved from {0} is not there any more.</source>
+   <translation>Die von {0} verschobene Wand ist nicht mehr da.</translation>
   </message>
   <message>
    <source>There is a region {0} already.</source>
@@ -5759,6 +5939,10 @@
    <translation>automatisch</translation>
   </message>
   <message>
+   <source>centimetres</source>
+   <translation>Zentimeter</translation>
+  </message>
+  <message>
    <source>check</source>
    <translation>Messung</translation>
   </message>
@@ -5783,6 +5967,14 @@
    <translation>exakt</translation>
   </message>
   <message>
+   <source>feet</source>
+   <translation>Fuß</translation>
+  </message>
+  <message>
+   <source>floor to ceiling is then {0} m</source>
+   <translation>vom Boden zur Decke sind es dann {0} m</translation>
+  </message>
+  <message>
    <source>frame {yaw} (support {share})</source>
    <translation>Achsen {yaw} (Stützung {share})</translation>
   </message>
@@ -5797,6 +5989,14 @@
   <message>
    <source>greedy (paper) or exact (integer program, HiGHS).</source>
    <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>metres</source>
+   <translation>Meter</translation>
+  </message>
+  <message>
+   <source>millimetres</source>
+   <translation>Millimeter</translation>
   </message>
   <message>
    <source>mostly predicted</source>
@@ -5843,6 +6043,14 @@
    <translation>Regionen {n}</translation>
   </message>
   <message>
+   <source>rejected</source>
+   <translation>verworfen</translation>
+  </message>
+  <message>
+   <source>resized</source>
+   <translation>in der Breite geändert</translation>
+  </message>
+  <message>
    <source>room</source>
    <translation>Raum</translation>
   </message>
@@ -5853,6 +6061,14 @@
   <message>
    <source>south</source>
    <translation>Süden</translation>
+  </message>
+  <message>
+   <source>the height is then {0} m</source>
+   <translation>die Höhe ist dann {0} m</translation>
+  </message>
+  <message>
+   <source>the points are flat, so only their extent could tell</source>
+   <translation>die Punkte sind flach, nur ihre Ausdehnung kann es sagen</translation>
   </message>
   <message>
    <source>type it here</source>
@@ -6398,6 +6614,14 @@
    <translation>Sicherheit</translation>
   </message>
   <message>
+   <source>Coordinates are in {0}, as asked.</source>
+   <translation>Die Koordinaten sind {0}, wie verlangt.</translation>
+  </message>
+  <message>
+   <source>Coordinates are taken as {0} ({1}); force it with input.unit.</source>
+   <translation>Die Koordinaten gelten als {0} ({1}); vorgeben mit input.unit.</translation>
+  </message>
+  <message>
    <source>Copy</source>
    <translation>Kopieren</translation>
   </message>
@@ -7666,6 +7890,10 @@
    <translation>Regionen mit mehr Zellen je freier Zelle entfallen (Artikel: 1000).</translation>
   </message>
   <message>
+   <source>Regions {0} do not touch: they cannot be merged.</source>
+   <translation>Die Regionen {0} berühren sich nicht: Sie lassen sich nicht vereinen.</translation>
+  </message>
+  <message>
    <source>Regions, doors, planes</source>
    <translation>Regionen, Türen, Ebenen</translation>
   </message>
@@ -8210,6 +8438,34 @@
    <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
   </message>
   <message>
+   <source>The door accepted at {0} is not there any more.</source>
+   <translation>Die bei {0} bestätigte Tür ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is in no wall: there is none within {1} m.</source>
+   <translation>Die bei {0} hinzugefügte Tür liegt in keiner Wand: Im Umkreis von {1} m ist keine.</translation>
+  </message>
+  <message>
+   <source>The door added at {0} is too narrow for one.</source>
+   <translation>Die bei {0} hinzugefügte Tür ist zu schmal für eine Tür.</translation>
+  </message>
+  <message>
+   <source>The door at {0} cannot be {1} m wide.</source>
+   <translation>Die Tür bei {0} kann nicht {1} m breit sein.</translation>
+  </message>
+  <message>
+   <source>The door {0} at {1} is not there any more.</source>
+   <translation>Die von Hand geänderte Tür ({0}) bei {1} ist nicht mehr da.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} groups of free cells by {1} rectangles was not found within {2} s; raise cover.time_limit or use cover.solver greedy.</source>
+   <translation>Die exakte Überdeckung von {0} Gruppen freier Zellen durch {1} Rechtecke wurde in {2} s nicht gefunden; cover.time_limit erhöhen oder cover.solver greedy nehmen.</translation>
+  </message>
+  <message>
+   <source>The exact cover of {0} parts of the plan was not proven optimal within {1} s; raise cover.time_limit.</source>
+   <translation>Für {0} Teile des Plans wurde in {1} s nicht bewiesen, dass ihre Überdeckung die beste ist; cover.time_limit erhöhen.</translation>
+  </message>
+  <message>
    <source>The fewest planes that explain all segments</source>
    <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
   </message>
@@ -8220,6 +8476,14 @@
   <message>
    <source>The file's up axis.</source>
    <translation>Die Hochachse der Datei.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is taken as up (flat layers, low extent, level path); force it with input.up.</source>
+   <translation>Die {0}-Achse der Datei gilt als Hochachse (flache Lagen, geringe Höhe, ebener Weg); vorgeben mit input.up.</translation>
+  </message>
+  <message>
+   <source>The file's {0} axis is up, as asked.</source>
+   <translation>Die {0}-Achse der Datei weist nach oben, wie verlangt.</translation>
   </message>
   <message>
    <source>The floor plan appears here once a survey is planned.</source>
@@ -8236,6 +8500,14 @@
   <message>
    <source>The height at which most free space was seen</source>
    <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} does not part region {1} in two of {2} m2.</source>
+   <translation>Die Linie bei {0} teilt die Region {1} nicht in zwei von je {2} m².</translation>
+  </message>
+  <message>
+   <source>The line drawn at {0} splits no region.</source>
+   <translation>Die Linie bei {0} teilt keine Region.</translation>
   </message>
   <message>
    <source>The look has no such field ({0}).</source>
@@ -8268,6 +8540,14 @@
   <message>
    <source>The ratio of widths for a passage.</source>
    <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, labelled or named by hand, is gone.</source>
+   <translation>Die von Hand bezeichnete oder benannte Region bei {0} gibt es nicht mehr.</translation>
+  </message>
+  <message>
+   <source>The region at {0}, merged with others, is gone.</source>
+   <translation>Die mit anderen vereinte Region bei {0} gibt es nicht mehr.</translation>
   </message>
   <message>
    <source>The regions on its two sides</source>
@@ -8308,6 +8588,14 @@
   <message>
    <source>The two points of a measurement are the same; give two different ones.</source>
    <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>The wall added at {0} is too short for one.</source>
+   <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall moved from {0} is not there any more.</source>
+   <translation>Die von {0} verschobene Wand ist nicht mehr da.</translation>
   </message>
   <message>
    <source>There is a region {0} already.</source>
@@ -8746,6 +9034,10 @@
    <translation>automatisch</translation>
   </message>
   <message>
+   <source>centimetres</source>
+   <translation>Zentimeter</translation>
+  </message>
+  <message>
    <source>check</source>
    <translation>Messung</translation>
   </message>
@@ -8770,6 +9062,14 @@
    <translation>exakt</translation>
   </message>
   <message>
+   <source>feet</source>
+   <translation>Fuß</translation>
+  </message>
+  <message>
+   <source>floor to ceiling is then {0} m</source>
+   <translation>vom Boden zur Decke sind es dann {0} m</translation>
+  </message>
+  <message>
    <source>frame {yaw} (support {share})</source>
    <translation>Achsen {yaw} (Stützung {share})</translation>
   </message>
@@ -8784,6 +9084,14 @@
   <message>
    <source>greedy (paper) or exact (integer program, HiGHS).</source>
    <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
+  </message>
+  <message>
+   <source>metres</source>
+   <translation>Meter</translation>
+  </message>
+  <message>
+   <source>millimetres</source>
+   <translation>Millimeter</translation>
   </message>
   <message>
    <source>mostly predicted</source>
@@ -8830,6 +9138,14 @@
    <translation>Regionen {n}</translation>
   </message>
   <message>
+   <source>rejected</source>
+   <translation>verworfen</translation>
+  </message>
+  <message>
+   <source>resized</source>
+   <translation>in der Breite geändert</translation>
+  </message>
+  <message>
    <source>room</source>
    <translation>Raum</translation>
   </message>
@@ -8840,6 +9156,14 @@
   <message>
    <source>south</source>
    <translation>Süden</translation>
+  </message>
+  <message>
+   <source>the height is then {0} m</source>
+   <translation>die Höhe ist dann {0} m</translation>
+  </message>
+  <message>
+   <source>the points are flat, so only their extent could tell</source>
+   <translation>die Punkte sind flach, nur ihre Ausdehnung kann es sagen</translation>
   </message>
   <message>
    <source>type it here</source>

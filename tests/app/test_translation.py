@@ -63,6 +63,8 @@ def test_actions_and_sentences_are_translated(german: None) -> None:
     assert translation.tr_action(opening)[0] == "Öffnen…"
     assert translation.tr_text("Saved office.floorcast.") == "office.floorcast gespeichert."
     assert translation.tr_text("Set doors.max_width to 1.6") == "doors.max_width auf 1.6 setzen"
+    guess = "Coordinates are taken as metres (floor to ceiling is then 2.65 m); force it with input.unit."
+    assert translation.tr_text(guess).startswith("Die Koordinaten gelten als Meter (vom Boden zur Decke")
     assert translation.tr_text("Nothing of the kind.") == "Nothing of the kind."
 
 
