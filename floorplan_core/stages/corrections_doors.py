@@ -30,6 +30,7 @@ from floorplan_core.stages.corrections import (
 )
 
 BY_HAND = "by hand"  # the word of evidence
+SAME = 0.3  # of the narrower of two doors that they share: they are one
 NARROWEST = 0.2  # m: a narrower door by hand is a slip of the mouse
 
 Doors = tuple[Door, ...]
@@ -189,8 +190,12 @@ def _add(
         evidence=(BY_HAND,),
         by_hand="added",
     )
-    kept = tuple(d for d in doors if not _same_place(d, door, config.max_thickness))
-    return (*kept, door), _opened(planes, door), NOTHING
+    beside = [d for d in doors if _overlap(d, door, config.max_thickness) > 0]
+    gone = [d for d in beside if _overlap(d, door, config.max_thickness) > SAME * min(d.width, door.width)]
+    for other in beside:
+        if other not in gone:
+            door = _trimmed(door, other)
+    return (*(d for d in doors if d not in gone), door), _opened(planes, door), NOTHING
 
 
 def _faces(planes: Planes, axis: int, offset: float, span: Span, thickest: float) -> list[LayoutPlane]:
@@ -210,6 +215,15 @@ def _faces(planes: Planes, axis: int, offset: float, span: Span, thickest: float
     return [first, behind[min(walls)[1]]] if walls else [first]
 
 
-def _same_place(a: Door, b: Door, thickest: float) -> bool:
-    near = abs(a.offset - b.offset) <= thickest
-    return a.axis == b.axis and near and min(a.end, b.end) - max(a.start, b.start) > 0
+def _overlap(a: Door, b: Door, thickest: float) -> float:
+    """Metres that two doors have in common; negative where they have none, or lie in different walls."""
+    if a.axis != b.axis or abs(a.offset - b.offset) > thickest:
+        return -1.0
+    return min(a.end, b.end) - max(a.start, b.start)
+
+
+def _trimmed(door: Door, other: Door) -> Door:
+    """A door that ends where the next one begins."""
+    if door.start + door.end < other.start + other.end:
+        return replace(door, end=min(door.end, other.start))
+    return replace(door, start=max(door.start, other.end))
