@@ -45,7 +45,7 @@ class At:
 class Mark:
     """Something that a tool wants drawn."""
 
-    kind: str  # "line", "dashes", "area", "dot", "snap", "plane" or "text"
+    kind: str  # "line", "dashes", "area", "dot", "grips", "snap", "plane" or "text"
     points: tuple[Point, ...]  # metres; for "plane" one point on it
     role: str = "selection"  # "selection", "door", "wall" or "warning"
     text: str = ""  # beside the last point, or on the middle of a line

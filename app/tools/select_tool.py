@@ -174,7 +174,7 @@ class SelectTool(Tool):
         thing = self.workbench.find(self.workbench.selection.item)
         if not isinstance(thing, Door):
             return ()
-        return tuple(Mark("dot", (end,)) for end in door_ends(thing, thing.start, thing.end))
+        return (Mark("grips", door_ends(thing, thing.start, thing.end)),)
 
     def _set_typed(self, held: PlaneDrag | DoorDrag) -> None:
         number = self._typed.metres

@@ -2,7 +2,8 @@
 
 The layers are painted once into a pixmap that is kept until camera, plan, look or theme change; what changes
 with the pointer (hover, selection, the tool's marks) is painted over it. Hits are looked up in arrays, by
-the distance to a line in pixels. A QGraphicsView of one item for each line took four times as long to pan.
+the distance to a line in pixels. No QGraphicsView: with an item for each line, 4,000 runs of 400 planes took
+39 ms of processor time a frame there; here they take 35 ms together with 200,000 points (benchmarks/ui_plan).
 """
 
 from __future__ import annotations

@@ -109,7 +109,7 @@ class FreeSpaceView:
         image.setColorTable(self._palette(frame.colours))
         draw_image(painter, frame, image)
         painter.setTransform(frame.transform(), True)
-        painter.setPen(pen(frame.colours.hover, 1.6))
+        painter.setPen(pen(frame.colours.hover, 1.2))
         painter.drawPath(self._outlines)
 
     def _pixels(self, frame: Frame) -> NDArray[np.uint8]:

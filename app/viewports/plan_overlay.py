@@ -33,6 +33,7 @@ COMPASS = 15.0  # pixels, radius
 CROSS = 9.0  # pixels, half the linked cursor
 PIN = 5.0  # pixels, radius of a pin's head
 TICK = 5.0
+GRIPPED = 24.0  # pixels that a thing needs for handles at its ends
 
 
 def paint_item(painter: QPainter, frame: Frame, source: PlanSource, item: Item, selected: bool) -> None:
@@ -70,7 +71,9 @@ def paint_check(painter: QPainter, frame: Frame, ends: tuple[Point, Point], metr
     if math.hypot(b.x() - a.x(), b.y() - a.y()) > 2 * TICK:
         middle = (a + b) / 2
         text = format.length(metres, frame.look.units)
-        at = (middle.x(), middle.y())
+        wide = text_size(text, SMALL, 600)[0] + 4 * TICK
+        raised = 3 * TICK if math.hypot(b.x() - a.x(), b.y() - a.y()) < wide else 0.0
+        at = (middle.x(), middle.y() - raised)
         draw_text(painter, text, at, SMALL, colour(tone), 600, False, colour(frame.colours.panel, 0.92))
 
 
@@ -195,6 +198,14 @@ def _dot(painter: QPainter, frame: Frame, mark: Mark) -> None:
     painter.drawEllipse(QPointF(*frame.camera.point(*mark.points[0])), 4.5, 4.5)
 
 
+def _grips(painter: QPainter, frame: Frame, mark: Mark) -> None:
+    """Handles at both ends, where they do not hide what they are on."""
+    a, b = mark.points
+    if math.dist(a, b) * frame.camera.scale >= GRIPPED:
+        for end in mark.points:
+            _dot(painter, frame, Mark("dot", (end,), mark.role))
+
+
 def _snap(painter: QPainter, frame: Frame, mark: Mark) -> None:
     """A square: the click will be exact."""
     x, y = frame.camera.point(*mark.points[0])
@@ -217,6 +228,7 @@ _MARKS = {
     "plane": _plane,
     "area": _area,
     "dot": _dot,
+    "grips": _grips,
     "snap": _snap,
     "text": _text,
 }
