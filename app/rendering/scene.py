@@ -42,6 +42,7 @@ class Label:
     at: tuple[float, float, float]  # metres, scene frame
     text: str
     area: float  # m2: the larger goes first where two meet
+    width: float  # metres across, about: what a corridor is wide twice over, a square once
     item: Item
 
 
@@ -129,7 +130,9 @@ class _View:
                 self._lines.line(dashed(ends) if side.speculated else ends, ink, 230)
         if lit:
             self._marks.line(shape.edges, lit, 235, 2)
-        self._labels.append(Label(shape.spot, region.name, region.area, item))
+        self._labels.append(
+            Label(shape.spot, region.name, region.area, 4 * region.area / region.perimeter, item)
+        )
 
     def predicted(self) -> None:
         grey = ramps.packed(self._holds.predicted)

@@ -28,6 +28,7 @@ RAMP_WIDTH, RAMP_HEIGHT = 10.0, 112.0  # pixels
 LOWEST_FOR_NAMES = 12.0  # degrees of elevation: seen from lower, names lie on top of each other
 PLATE = 0.86  # opacity of what text stands on
 ROOM_SHARE = 0.9  # of a region's width in the picture that its name may take
+ROOMY = 440  # pixels: in a smaller pane the ornaments shrink
 SMALLEST = 240  # pixels: in a smaller pane only names are written
 FOOT = 0.3048  # metres
 
@@ -70,7 +71,7 @@ def _names(painter: QPainter, overlay: Overlay, camera: Camera) -> None:
     for label, (x, y, depth) in zip(order, places.tolist(), strict=True):
         if not (0 <= x <= camera.width and 0 <= y <= camera.height):
             continue
-        room = math.sqrt(label.area) * camera.focal / depth  # pixels across the region
+        room = label.width * camera.focal / depth  # pixels across the region
         lines = _lines_of(label, overlay.look.units, math.inf if label.item in lit else room)
         rect = _name_rect(lines, QPointF(x, y))
         if lines and not any(rect.intersects(other) for other in taken):
@@ -115,20 +116,20 @@ def _plate(painter: QPainter, rect: QRectF, holds: theme.Colours, edge: str) -> 
 def _axes(painter: QPainter, camera: Camera, look: Look) -> None:
     """The three axes as they lie in the picture, those that point away first."""
     holds = theme.colours(look.theme)
-    middle = QPointF(MARGIN + AXIS_LENGTH + 14, camera.height - MARGIN - AXIS_LENGTH - 14)
+    length = AXIS_LENGTH * _small(camera.width, camera.height)
+    around = length + 14 * _small(camera.width, camera.height)
+    middle = QPointF(MARGIN + around, camera.height - MARGIN - around)
     painter.setPen(QPen(QColor(holds.line), 1.0))
     painter.setBrush(_faded(holds.panel, PLATE))
-    painter.drawEllipse(middle, AXIS_LENGTH + 14, AXIS_LENGTH + 14)
+    painter.drawEllipse(middle, around, around)
     axes = [("x", holds.plane_ew), ("y", holds.plane_ns), ("z", holds.accent)]
     order = sorted(range(3), key=lambda i: -camera.rotation[2, i])
     for i in order:
         name, colour = axes[i]
-        tip = QPointF(camera.rotation[0, i], -camera.rotation[1, i]) * AXIS_LENGTH
+        tip = QPointF(camera.rotation[0, i], -camera.rotation[1, i]) * length
         painter.setPen(QPen(QColor(colour), 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
         painter.drawLine(middle, middle + tip)
-        if (
-            abs(tip.x()) + abs(tip.y()) > 0.3 * AXIS_LENGTH
-        ):  # an axis that points at us has no room for a name
+        if abs(tip.x()) + abs(tip.y()) > 0.3 * length:  # an axis that points at us has no room for a name
             at = middle + tip * 1.32
             _text(painter, QRectF(at.x() - 8, at.y() - 8, 16, 16), name, colour, SMALL_SIZE, 600)
 
@@ -145,21 +146,27 @@ def _legend(painter: QPainter, overlay: Overlay, width: int, height: int) -> Non
     holds = theme.colours(look.theme)
     ramp = paint is not None and paint.heights is not None
     facings = paint is not None and not ramp and look.point_colour == "facing"
+    ramp_height = RAMP_HEIGHT * _small(width, height)
     wide = 108.0 if facings else 84.0
     tall = (
-        (26.0 if overlay.grid else 8.0) + (RAMP_HEIGHT + 12 if ramp else 0) + (18.0 * 4 + 4 if facings else 0)
+        (26.0 if overlay.grid else 8.0) + (ramp_height + 12 if ramp else 0) + (18.0 * 4 + 4 if facings else 0)
     )
     if not (overlay.grid or ramp or facings):
         return
     plate = QRectF(width - MARGIN - wide, height - MARGIN - tall, wide, tall)
     _plate(painter, plate, holds, holds.line)
     if ramp and paint is not None and paint.heights is not None:
-        _ramp(painter, paint.heights, look, plate)
+        _ramp(painter, paint.heights, look, plate, ramp_height)
     if facings:
         _facings(painter, look, plate)
     if overlay.grid:
         rect = QRectF(plate.left() + 10, plate.bottom() - 22, wide - 20, 18)
         _text(painter, rect, _grid_text(look), holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
+
+
+def _small(width: int, height: int) -> float:
+    """The share of their size that ornaments have in a small pane."""
+    return min(max(min(width, height) / ROOMY, 0.5), 1.0)
 
 
 def _grid_text(look: Look) -> str:
@@ -168,9 +175,9 @@ def _grid_text(look: Look) -> str:
     return tr("Grid {step}").format(step=number)
 
 
-def _ramp(painter: QPainter, heights: tuple[float, float], look: Look, plate: QRectF) -> None:
+def _ramp(painter: QPainter, heights: tuple[float, float], look: Look, plate: QRectF, tall: float) -> None:
     holds = theme.colours(look.theme)
-    bar = QRectF(plate.left() + 10, plate.top() + 10, RAMP_WIDTH, RAMP_HEIGHT)
+    bar = QRectF(plate.left() + 10, plate.top() + 10, RAMP_WIDTH, tall)
     gradient = QLinearGradient(bar.topLeft(), bar.bottomLeft())
     colours = ramps.height_ramp(look.theme)[::-1]
     for share in np.linspace(0.0, 1.0, 17).tolist():

@@ -217,7 +217,7 @@ class SpaceView(QWidget):
             return None
         if self._path[0] is not plan:
             flown = None if session is None else session.reconstruction.trajectory
-            if flown is not None:
+            if flown is not None and len(flown) == len(plan.trajectory):  # not a moment of a run
                 matrix = scene_matrix(plan, origin=self._origin())
                 path = flown.origins @ matrix[:, :3].T + matrix[:, 3]
             else:
