@@ -42,7 +42,8 @@ CORE = (  # modules of the core whose sentences reach the window as warnings or 
 LETTERS = {"N", "E", "S", "W"}  # of the compass
 EXTRA = (  # words of the core that lists show
     "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
-    "furniture", "auto", "greedy", "exact", "metres", "centimetres", "millimetres", "feet", "rejected", "resized",
+    "furniture", "auto", "greedy", "exact", "metres", "centimetres", "millimetres", "feet", "rejected",
+    "resized",
     "floor to ceiling is then {0} m", "the height is then {0} m",
     "the points are flat, so only their extent could tell",
 )  # fmt: skip

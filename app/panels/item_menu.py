@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from floorcast_app.actions.registry import Action
 from floorcast_app.icons import icon
+from floorcast_app.panels.by_hand import by_hand
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr, tr_action
 from floorcast_app.workbench import Workbench
@@ -23,7 +24,7 @@ def fitting(workbench: Workbench, item: Item | None) -> list[Action]:
     """The actions that are possible now on a selected item."""
     if item is None:
         return []
-    ids = (*FIT.get(item.kind, ()), RELEASE)
+    ids = (*FIT.get(item.kind, ()), *((RELEASE,) if by_hand(workbench.find(item)) else ()))
     return [a for a in workbench.actions if a.id in ids and a.enabled(workbench)]
 
 

@@ -175,6 +175,7 @@ def test_the_context_menu_offers_what_fits(panel: ItemsPanel, qtbot: QtBot) -> N
     texts = [a.text() for a in menu.actions()]
     assert any("Rename" in t for t in texts) and any("Relabel" in t for t in texts)
     assert not any("door" in t.lower() for t in texts)
+    assert not any("Release" in t for t in texts)  # nothing was said of it
     menu.close()
 
 
