@@ -19,12 +19,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_app.colours import THEMES
 from floorcast_app.rendering import ramps
 from floorcast_app.rendering.cloud import facing_colours, paint, storey_height
 from floorcast_app.rendering.cloud_loader import CloudMaker, Wanted
 from floorcast_app.rendering.scene import DOOR_HEIGHT
 from floorcast_app.rendering.shapes import on_wall, outline, quad, raised, triangles_of
-from floorcast_app.theme import colours as theme_colours
 from floorplan_core.errors import UsageError
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
 
@@ -154,7 +154,7 @@ def _facing(triangles: Float, plane: LayoutPlane) -> Float:
 
 def _region_parts(region: Region, height: float) -> tuple[Part, ...]:
     """The floor as a slab, and the edges of the room above it."""
-    holds = theme_colours("light")
+    holds = THEMES["light"]
     fill = {"room": holds.room, "corridor": holds.corridor}.get(region.label, holds.other)
     colour, ink = ramps.packed(fill), ramps.shifted(fill, -0.3)
     floor, edges = triangles_of(region.polygon, 0.0), outline(region.polygon, 0.0)
@@ -182,7 +182,7 @@ def _door_part(door: Door, height: float) -> Part:
     corners = raised(np.array([near[0], near[1], far[1], far[0]]), top)
     lid = np.array([corners[[0, 1, 2]], corners[[0, 2, 3]]])
     faces = np.concatenate([quad(near, 0.0, top), quad(far, 0.0, top), *jambs, lid])
-    return _mesh(np.concatenate([faces, faces[:, ::-1]]), ramps.packed(theme_colours("light").door))
+    return _mesh(np.concatenate([faces, faces[:, ::-1]]), ramps.packed(THEMES["light"].door))
 
 
 def _mesh(triangles: Float, colour: int) -> Part:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_app.colours import THEMES
 from floorcast_app.point_store import Points
 from floorcast_app.rendering import kernels, ramps
-from floorcast_app.theme import colours as theme_colours
 from floorplan_core.model import Facing, FloorPlan, LocalFrame
 
 Float = NDArray[np.float64]
@@ -128,7 +128,7 @@ def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, note: str) -> P
 
 def _by_plane(cloud: Cloud, by: str, plan: FloorPlan, theme: str) -> Colours:
     """Points near a plane have its colour; the others stay grey."""
-    holds = theme_colours(theme)
+    holds = THEMES[theme]
     table = facing_colours(theme) if by == "facing" else ramps.plane_colours(len(plan.planes), theme)
     rows = [p.facing for p in plan.planes] if by == "facing" else list(range(len(plan.planes)))
     grey = ramps.packed(holds.predicted)
@@ -142,7 +142,7 @@ def _by_plane(cloud: Cloud, by: str, plan: FloorPlan, theme: str) -> Colours:
 
 def facing_colours(theme: str) -> Colours:
     """(4,) a colour for each :class:`Facing`: the paper's red and green, each light and dark."""
-    holds = theme_colours(theme)
+    holds = THEMES[theme]
     made = {
         Facing.EAST: ramps.shifted(holds.plane_ew, 0.06),
         Facing.WEST: ramps.shifted(holds.plane_ew, -0.10),

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_app.colours import THEMES
 from floorcast_app.rendering import kernels, ramps
 from floorcast_app.rendering.camera import Camera, camera_of
 from floorcast_app.rendering.cloud import Cloud, Paint
 from floorcast_app.rendering.drawables import Lines, Surfaces
 from floorcast_app.rendering.scene import Scene
 from floorcast_app.rendering.shapes import floor_grid, grid_step
-from floorcast_app.theme import colours as theme_colours
 from floorcast_app.view_state import Look
 
 Pixels = NDArray[np.uint32]
@@ -202,7 +202,7 @@ def grid_bounds(request: FrameRequest) -> tuple[float, float, float, float] | No
 
 def backdrop(rows: int, theme: str) -> Pixels:
     """(rows,) the ground behind everything: a quiet gradient."""
-    holds = theme_colours(theme)
+    holds = THEMES[theme]
     top, bottom = (
         np.array([int(c[i : i + 2], 16) for i in (1, 3, 5)], dtype=np.float64)
         for c in (holds.canvas, holds.window)

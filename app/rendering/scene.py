@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_app.colours import THEMES
 from floorcast_app.rendering import ramps
 from floorcast_app.rendering.cloud import facing_colours, storey_height
 from floorcast_app.rendering.drawables import OPAQUE, Builder, Lines, Surfaces
@@ -21,7 +22,6 @@ from floorcast_app.rendering.shapes import (
     raised,
 )
 from floorcast_app.selection import Item
-from floorcast_app.theme import colours as theme_colours
 from floorcast_app.view_state import Look
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
 
@@ -105,7 +105,7 @@ class _View:
         floors: Floors,
     ) -> None:
         self._shapes, self._look, self._selected, self._hovered = floors, look, selected, hovered
-        self._holds = theme_colours(look.theme)
+        self._holds = THEMES[look.theme]
         self._facing = facing_colours(look.theme)
         self._floors, self._walls, self._lines, self._marks = (Builder() for _ in range(4))
         self._labels: list[Label] = []

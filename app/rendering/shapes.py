@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_app.colours import THEMES
 from floorcast_app.rendering import ramps
 from floorcast_app.rendering.drawables import Lines
-from floorcast_app.theme import colours as theme_colours
 from floorcast_app.view_state import Look
 
 Float = NDArray[np.float64]
@@ -50,7 +50,7 @@ def floor_grid(bounds: tuple[float, float, float, float], step: float, look: Loo
     along_x = np.array([[[x0, y, 0], [x1, y, 0]] for y in ys], dtype=np.float64)
     ends = np.concatenate([along_y, along_x]) * step
     strong = np.concatenate([xs, ys]) % 5 == 0
-    colour = np.full(len(ends), ramps.packed(theme_colours(look.theme).muted), dtype=np.uint32)
+    colour = np.full(len(ends), ramps.packed(THEMES[look.theme].muted), dtype=np.uint32)
     return Lines(
         ends,
         colour,
