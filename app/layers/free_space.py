@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorcast_app.layers.source import PlanSource, Rings, rings
-from floorplan_core.model import FREE, OCCUPIED
+from floorplan_core.model import FREE, OCCUPIED, OccupancyGrid, Region
 from floorplan_core.model.floor_plan import regions_mask
 
 UNSEEN, SEEN_FREE, PREDICTED, SOLID = 0, 1, 2, 3  # codes of the cells
@@ -26,13 +26,17 @@ class FreeSpaceLayer:
 
 
 def free_space_layer(source: PlanSource) -> FreeSpaceLayer:
+    """The slice of a whole plan."""
+    return free_space_of(source.plan.grid, source.drawn.regions)
+
+
+def free_space_of(grid: OccupancyGrid, regions: tuple[Region, ...]) -> FreeSpaceLayer:
     """Predicted is what lies in a region and was not seen to be anything."""
-    grid = source.plan.grid
-    inside = regions_mask(source.drawn.regions, grid)
+    inside = regions_mask(regions, grid)
     codes = np.zeros(grid.states.shape, dtype=np.uint8)
     codes[inside] = PREDICTED
     codes[grid.states == OCCUPIED] = SOLID
     codes[grid.states == FREE] = SEEN_FREE
     x, y = grid.origin.tolist()
-    outlines = tuple(ring for r in source.drawn.regions for ring in rings(r.polygon))
+    outlines = tuple(ring for r in regions for ring in rings(r.polygon))
     return FreeSpaceLayer(codes, (x, y), grid.cell, grid.slice_height, outlines)

@@ -28,6 +28,7 @@ from PySide6.QtWidgets import QWidget
 from floorcast_app import theme
 from floorcast_app.layers.hit_index import segment_distance
 from floorcast_app.layers.item_shapes import item_shape
+from floorcast_app.layers.partial import partial_layer
 from floorcast_app.layers.source import source_of
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.selection import Item
@@ -39,7 +40,7 @@ from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
-from floorcast_app.viewports.plan_layers import paint_layers
+from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
     paint_check,
     paint_compass,
@@ -55,6 +56,7 @@ from floorcast_app.workbench import Workbench
 HIT = 6.0  # pixels around a line within which it is hit
 CLICK = 4.0  # pixels that a click may move
 SETTLE = 60  # ms that other panes than the one under the pointer wait for the camera to rest
+AROUND_PLAN = 1.4  # how much more than a plan that is being made is shown
 AROUND_ITEM = 1.8  # how much more than a thing is shown when it is zoomed to
 SMALLEST_SPAN = 2.0  # metres: small things are not zoomed to more closely
 KEYS = {Qt.Key.Key_Return: "Enter", Qt.Key.Key_Enter: "Enter", Qt.Key.Key_Backspace: "Backspace"}
@@ -78,6 +80,7 @@ class PlanCanvas(QWidget):
         self.setMinimumSize(120, 90)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._drawing: Drawing | None = None
+        self._partial: dict[str, LayerView] = {}  # what is known of the first plan while it is made
         self._base: QPixmap | None = None
         self._base_camera: Camera | None = None  # that of the base
         self._settle = QTimer(self, singleShot=True, interval=SETTLE)
@@ -138,6 +141,7 @@ class PlanCanvas(QWidget):
         w = self.workbench
         self._bound = (
             (w.plan_changed, self._plan_changed),
+            (w.partial, self._stage_done),
             (w.view.changed, self._look_changed),
             (w.selection.changed, self.update),
             (w.selection.hover_changed, self.update),
@@ -161,8 +165,19 @@ class PlanCanvas(QWidget):
         else:
             self._builder.build(self.workbench.plan)
 
+    def _stage_done(self, stage: str, result: object) -> None:
+        """Show what a stage of the first plan found; a plan that is shown stays until the next is whole."""
+        found = partial_layer(result) if self.workbench.plan is None else None
+        if found is None or found[0] not in self.kinds:
+            return
+        kind, model, bounds = found
+        if not self._partial and self.workbench.project is None:
+            self.workbench.view.set(**framed(bounds, AROUND_PLAN))  # type: ignore[arg-type]
+        self._partial[kind] = LAYER_KINDS[kind].view(model)
+        self._refresh()
+
     def _show(self, drawing: Drawing | None) -> None:
-        self._drawing = drawing
+        self._drawing, self._partial = drawing, {}
         self._refresh()
 
     def _look_changed(self, before: Look, after: Look) -> None:
@@ -244,11 +259,14 @@ class PlanCanvas(QWidget):
             0, 0, math.ceil(frame.camera.width), math.ceil(frame.camera.height), self.ground(frame)
         )
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if self._drawing is not None:
-            paint_layers(painter, frame, self._drawing.views)
+        views = self._drawing.views if self._drawing is not None else self._partial
+        paint_layers(painter, frame, views)
 
     def _paint_over(self, painter: QPainter, frame: Frame, interactive: bool) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self._drawing is None and self._partial:
+            paint_scale(painter, frame)
+            return
         if self._drawing is None:
             middle = (frame.camera.width / 2, frame.camera.height / 2)
             draw_text(painter, tr(self.empty), middle, BODY, colour(frame.colours.muted))

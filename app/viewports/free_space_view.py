@@ -32,7 +32,7 @@ class FreeSpaceView(PlanCanvas):
         self.height_slider = HeightSlider(workbench, self)
 
     def ground(self, frame: Frame) -> QColor:
-        shown = self._drawing is not None and "free_space" in frame.look.layers
+        shown = (self._drawing is not None or self._partial) and "free_space" in frame.look.layers
         return colour(frame.colours.unobserved if shown else frame.colours.canvas)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

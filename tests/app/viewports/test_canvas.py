@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
@@ -212,6 +213,23 @@ def test_a_pane_without_a_plan_says_so_and_takes_one_later(qtbot, workbench, dra
     workbench.plan_changed.emit(None)
     assert pane.ready
     assert pane._drawing is None
+
+
+@pytest.mark.parametrize(("pane_class", "part"), [(PlanesView, "planes"), (FreeSpaceView, "grid")])
+def test_what_the_stages_found_is_shown_before_the_plan_is_whole(qtbot, workbench, drawn, pane_class, part):
+    pane = opened(qtbot, pane_class(workbench))
+    empty = array(pane.picture(400, 300))
+    workbench.partial.emit("frame", drawn.plan.frame)
+    assert (array(pane.picture(400, 300)) == empty).all()
+    workbench.partial.emit("some stage", getattr(drawn.plan, part))
+    x0, y0, x1, y1 = pane.camera.visible
+    bounds = shapely.total_bounds([r.polygon for r in drawn.plan.regions])
+    assert (x0, y0) < tuple(bounds[:2]) and (x1, y1) > tuple(bounds[2:])
+    assert (array(pane.picture(400, 300)) != empty).mean() > 0.05
+    workbench.plan = drawn.plan
+    workbench.plan_changed.emit(drawn.plan)
+    qtbot.waitUntil(lambda: pane.ready)
+    assert pane._partial == {}
 
 
 def test_a_picture_is_of_the_present_plan_even_before_it_is_built(qtbot, workbench, drawn):
