@@ -45,6 +45,7 @@ from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
+from floorplan_core.stages.narrowings import find_openings
 from floorplan_core.stages.occupancy import slice_map
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import build_regions, connect_doors
@@ -145,7 +146,9 @@ class FloorPlanner:
         planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
 
         seen = still_walls(machine, planes)
-        doors = stage("doors", lambda: find_doors(seen, evidence, config.doors), seen, evidence, config.doors)
+        doors = stage(
+            "doors", lambda: find_openings(seen, evidence, config.doors), seen, evidence, config.doors
+        )
         doors, planes, remarks = stage.correct(
             "doors",
             lambda: self._corrected_doors(doors, planes, machine, say.doors, evidence),
