@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QWidget
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar, QWidget
 
 H, V = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
 HIDDEN = {  # panes that a workspace does without
@@ -16,6 +16,11 @@ HIDDEN = {  # panes that a workspace does without
 
 TABLES = {"inspect": 0.24, "plan": 0.24, "run": 0.2}  # of the window's height, for the tables at the bottom
 LINE = {"inspect": 0.1, "plan": 0.1, "run": 0.25}  # for the timeline, where it is shown
+
+
+def tab_bars(window: QMainWindow) -> list[QTabBar]:
+    """The tab bars of the docks, those that Qt keeps for later included."""
+    return window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly)
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: str) -> None:

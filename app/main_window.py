@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTa
 
 from floorcast_app import theme
 from floorcast_app.actions import MENUS
-from floorcast_app.dock_layout import TitleBars, arrange
+from floorcast_app.dock_layout import TitleBars, arrange, tab_bars
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.recovery_banner import RecoveryBanner
@@ -209,8 +209,12 @@ class MainWindow(QMainWindow):
 
     def _arrange(self, workspace: str) -> None:
         kept = self._settings.value(f"workspace/{workspace}")
+        before = [bar for bar in tab_bars(self) if bar.count()]
         if not (isinstance(kept, QByteArray) and self.restoreState(kept)):
             arrange(self, self.docks, workspace)
+            return
+        for bar in before:  # Qt makes new ones and forgets to take these away
+            bar.hide()
 
     def _retitle(self) -> None:
         survey, project = self.workbench.state.survey, self.workbench.project

@@ -1,0 +1,34 @@
+"""Switching between workspaces leaves nothing behind."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from floorcast_app.dock_layout import tab_bars
+from floorcast_app.main import make_application, make_window
+from floorcast_app.main_window import MainWindow
+
+
+def _seen_tabs(window: MainWindow) -> list[list[str]]:
+    QApplication.processEvents()
+    inside = [b for b in tab_bars(window) if b.isVisible() and window.rect().intersects(b.geometry())]
+    return sorted([b.tabText(i) for i in range(b.count())] for b in inside)
+
+
+def test_every_workspace_comes_back_as_it_was(qtbot: QtBot) -> None:
+    make_application()
+    window = make_window(unattended=True)
+    qtbot.addWidget(window)
+    window.resize(1440, 900)
+    window.show()
+    first = {}
+    for name in ("inspect", "plan", "run"):
+        window.workbench.run(f"view.{name}")
+        qtbot.waitUntil(lambda: _seen_tabs(window) != [])
+        qtbot.wait(100)  # until Qt has laid out the docks
+        first[name] = _seen_tabs(window)
+    for name in ("inspect", "plan", "run", "inspect", "run", "plan"):
+        window.workbench.run(f"view.{name}")
+        qtbot.waitUntil(lambda n=name: _seen_tabs(window) == first[n])  # type: ignore[misc]
+    window.close()
