@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from floorcast_app.colours import THEMES
 from floorcast_app.point_store import Points
-from floorcast_app.rendering import kernels, ramps
+from floorcast_app.rendering import ramps
 from floorplan_core.model import Facing, FloorPlan, LocalFrame
 
 Float = NDArray[np.float64]
@@ -83,6 +83,8 @@ def plan_origin(plan: FloorPlan | None, points: LocalFrame | None) -> tuple[floa
 
 def make_cloud(points: Points, matrix: Float) -> Cloud:
     """Move the points into the scene and find out how dense they are."""
+    from floorcast_app.rendering import kernels  # numba takes a second to load: not before the window
+
     xyz = np.empty_like(points.xyz, dtype=np.float32)
     kernels.move(points.xyz, matrix.astype(np.float32), xyz)
     if not len(xyz):
@@ -134,6 +136,8 @@ def _by_plane(cloud: Cloud, by: str, plan: FloorPlan, theme: str) -> Colours:
     grey = ramps.packed(holds.predicted)
     table = np.append(table[np.array(rows, dtype=np.int64)], np.uint32(grey))  # row -1: no plane
     cells, origin = plane_raster(plan)
+    from floorcast_app.rendering import kernels
+
     number = np.empty(len(cloud), dtype=np.int16)
     high = storey_height(plan) - CEILING_SKIN
     kernels.nearest_planes(cloud.xyz, cells, origin, PLANE_CELL, FLOOR_SKIN, high, number)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +15,8 @@ from floorcast_app.rendering.cloud import Cloud, Paint, lowest_level, make_cloud
 from floorplan_core.model import FloorPlan
 
 Float = NDArray[np.float64]
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,11 @@ class CloudLoader:
                 if self._closed or self._wanted is None:
                     return
                 wanted, self._wanted, self._busy = self._wanted, None, True
-            loaded = self._maker.load(wanted)
+            try:
+                loaded = self._maker.load(wanted)
+            except Exception:  # noqa: BLE001 (the next wish may be possible)
+                _log.exception("The points of the 3D pane could not be made ready.")
+                continue
             if self._wanted is None and not self._closed:
                 self._done(loaded)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from collections.abc import Callable
@@ -22,6 +23,8 @@ TARGET = 0.030  # s for a frame while something moves: 30 a second with what the
 REST = 0.15  # s without a new request after which the fine frame is drawn
 FEWEST, MOST = 250_000, 4_000_000  # points of a frame while something moves
 FIRST = 400_000  # points of the very first one
+
+_log = logging.getLogger(__name__)
 
 _CAMERA = {"centre": (0.0, 0.0), "span": 1.0, "azimuth": 0.0, "elevation": 0.0, "workspace": "", "units": ""}
 
@@ -116,9 +119,12 @@ class FrameWorker:
 
     def _run(self) -> None:
         while (subject := self._next()) is not None:
-            self._quick(subject)
-            if self._rests():
-                self._fine(subject)
+            try:
+                self._quick(subject)
+                if self._rests():
+                    self._fine(subject)
+            except Exception:  # noqa: BLE001 (one frame that fails must not freeze the pane for good)
+                _log.exception("A frame of the 3D pane failed.")
 
     def _next(self) -> Subject | None:
         with self._wake:

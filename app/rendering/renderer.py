@@ -1,4 +1,7 @@
-"""Puts points, surfaces and lines into one picture. No Qt; it may run in any thread, one at a time."""
+"""Puts points, surfaces and lines into one picture. No Qt; it may run in any thread, one at a time.
+
+Kernels are imported where they are used: numba takes a second to load, and the window must not wait for it.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorcast_app.colours import THEMES
-from floorcast_app.rendering import kernels, ramps
+from floorcast_app.rendering import ramps
 from floorcast_app.rendering.camera import Camera, camera_of
 from floorcast_app.rendering.cloud import Cloud, Paint
 from floorcast_app.rendering.drawables import Lines, Surfaces
@@ -109,6 +112,8 @@ class Renderer:
         cloud, paint = request.cloud, request.paint
         if cloud is None or paint is None or not len(cloud) or "points" not in request.look.layers:
             return 0
+        from floorcast_app.rendering import kernels
+
         count = len(cloud) if most is None else min(most, len(cloud))
         low, high = point_box(request)
         size = splat_size(cloud, count, camera)
@@ -128,6 +133,8 @@ class Renderer:
         keys: NDArray[np.uint64],
         factor: int,
     ) -> tuple[Pixels, NDArray[np.float32]]:
+        from floorcast_app.rendering import kernels
+
         image = np.empty(keys.shape, dtype=np.uint32)
         inverse = np.empty(keys.shape, dtype=np.float32)
         strength = np.float32(camera.distance / (DEEP * request.look.span))
@@ -145,6 +152,8 @@ class Renderer:
         image: Pixels,
         factor: int,
     ) -> None:
+        from floorcast_app.rendering import kernels
+
         scene, towards = request.scene, np.float32(1.0 + PULL / camera.distance)
 
         def lines(drawn: Lines, pull: float) -> None:
@@ -212,6 +221,8 @@ def backdrop(rows: int, theme: str) -> Pixels:
 
 
 def _halved(image: Pixels) -> Pixels:
+    from floorcast_app.rendering import kernels
+
     out = np.empty((image.shape[0] // 2, image.shape[1] // 2), dtype=np.uint32)
     kernels.halve(image, out)
     return out

@@ -194,7 +194,7 @@ class _View:
             x, y = ends[:, :, 0], ends[:, :, 1]
             inside = (x >= section[0]) & (x <= section[2]) & (y >= section[1]) & (y <= section[3])
             ends = ends[inside.all(axis=1)]
-        self._lines.line(ends, colour, 225, 2)
+        self._lines.line(ends, colour, 235)
 
     def scene(self) -> Scene:
         floors, walls = self._floors.made_surfaces(), self._walls.made_surfaces()

@@ -179,7 +179,8 @@ class SpaceView(QWidget):
         if loaded.wanted != self._wanted:
             return
         self._loaded = loaded
-        self._load_took = time.perf_counter() - self._load_began
+        if len(loaded.cloud):  # the first time imports and compiles, and tells nothing
+            self._load_took = time.perf_counter() - self._load_began
         if not self._placed and len(loaded.cloud):
             self._place(loaded.cloud)
         self._ask()
