@@ -127,6 +127,7 @@ class LayersPanel(Panel):
     def _eye(self, layer: str) -> EyeButton:
         eye = EyeButton(tr("Show or hide"))
         eye.setObjectName(f"eye-{layer}")
+        eye.setAccessibleName(tr(LAYER_TEXTS[layer]))
         eye.clicked.connect(lambda: self.workbench.try_run(f"view.layer_{layer}"))
         return eye
 
