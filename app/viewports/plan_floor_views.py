@@ -22,6 +22,7 @@ from floorcast_app.viewports.plan_frame import (
     lines_path,
     path_of,
     pen,
+    plan_pen,
     text_size,
 )
 from floorplan_core.exporters.door_symbols import Leaf
@@ -53,7 +54,7 @@ class RegionsView:
             painter.fillPath(floor, colour(tone))
             painter.fillPath(predicted, colour(frame.colours.canvas, 0.6))
             painter.fillPath(predicted, hatch(frame, _accent(frame, tone), 0.55))
-            painter.setPen(pen(frame.colours.muted, 1.6, 1.0, GUESSED))
+            painter.setPen(plan_pen(frame, frame.colours.muted, 1.6, 1.0, GUESSED))
             painter.drawPath(guessed)
 
 
@@ -96,9 +97,9 @@ class WallsView:
         painter.setTransform(frame.transform(), True)
         painter.fillPath(self._guessed, colour(frame.colours.canvas))
         painter.fillPath(self._guessed, hatch(frame, wall, 0.6, 5, falling=True))
-        painter.setPen(pen(wall, 1.0, 0.9, (4.0, 3.0)))
+        painter.setPen(plan_pen(frame, wall, 1.0, 0.9, (4.0, 3.0)))
         painter.drawPath(self._guessed)
-        painter.setPen(pen(wall, 1.0))
+        painter.setPen(plan_pen(frame, wall, 1.0))
         painter.setBrush(colour(wall))
         painter.drawPath(self._observed)
 
@@ -119,11 +120,12 @@ class DoorsView:
             x0, y0, x1, y1 = shape.bounds
             painter.fillRect(QRectF(x0, y0, x1 - x0, y1 - y0), colour(frame.colours.door))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(pen(ink, 1.1, 1.0, None if shape.sure and shape.leaves else (4.0, 3.0)))
+            dashes = None if shape.sure and shape.leaves else (4.0, 3.0)
+            painter.setPen(plan_pen(frame, ink, 1.1, 1.0, dashes))
             painter.drawPath(_faces(shape))
-            painter.setPen(pen(ink, 1.0))
+            painter.setPen(plan_pen(frame, ink, 1.0))
             painter.drawPath(swing)
-            painter.setPen(pen(ink, 2.0))
+            painter.setPen(plan_pen(frame, ink, 2.0))
             painter.drawPath(leaf)
 
 

@@ -64,13 +64,22 @@ def colour(name: str, alpha: float = 1.0) -> QColor:
 
 
 def pen(name: str, width: float = 1.0, alpha: float = 1.0, dashes: Iterable[float] | None = None) -> QPen:
-    """A pen whose width and dashes are pixels at every zoom; ``dashes`` in pixels."""
+    """A pen for painting in pixels; ``dashes`` in pixels, too."""
     made = QPen(colour(name, alpha), width)
-    made.setCosmetic(True)
     made.setCapStyle(Qt.PenCapStyle.FlatCap)
     made.setJoinStyle(Qt.PenJoinStyle.MiterJoin)
     if dashes is not None:
-        made.setDashPattern([d / max(width, 1.0) for d in dashes])
+        made.setDashPattern([d / width for d in dashes])
+    return made
+
+
+def plan_pen(
+    frame: Frame, name: str, width: float = 1.0, alpha: float = 1.0, dashes: Iterable[float] | None = None
+) -> QPen:
+    """The same for painting in metres. A cosmetic pen counts device pixels, however many make a pixel."""
+    made = pen(name, width, alpha, dashes)
+    made.setWidthF(width * frame.ratio)
+    made.setCosmetic(True)
     return made
 
 

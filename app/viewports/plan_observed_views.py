@@ -13,7 +13,7 @@ from floorcast_app.layers.free_space import PREDICTED, SEEN_FREE, SOLID, UNSEEN,
 from floorcast_app.layers.observed import PointsLayer, TrajectoryLayer
 from floorcast_app.layers.planes import PlaneShape, PlanesLayer
 from floorcast_app.theme import Colours
-from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, path_of, pen
+from floorcast_app.viewports.plan_frame import HATCH_STEP, Frame, colour, path_of, pen, plan_pen
 
 DOT = 0.035  # metres that a dot covers when zoomed in
 SMALLEST_DOT, LARGEST_DOT = 2, 5  # device pixels
@@ -66,7 +66,7 @@ class TrajectoryView:
         if self._path.size() < 2:
             return
         painter.setTransform(frame.transform(), True)
-        painter.setPen(pen(frame.colours.accent, 1.0, 0.9))
+        painter.setPen(plan_pen(frame, frame.colours.accent, 1.0, 0.9))
         painter.drawPolyline(self._path)
         painter.resetTransform()
         painter.setPen(pen(frame.colours.canvas, 1.5))
@@ -89,7 +89,7 @@ class PlanesView:
         painter.setTransform(frame.transform(), True)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)  # they run along the pixels
         for shape in shown:
-            painter.setPen(pen(plane_colour(frame.colours, shape.facing.axis), 3.0))
+            painter.setPen(plan_pen(frame, plane_colour(frame.colours, shape.facing.axis), 3.0))
             painter.drawLines(self._runs[shape.item])
 
 
@@ -109,7 +109,7 @@ class FreeSpaceView:
         image.setColorTable(self._palette(frame.colours))
         draw_image(painter, frame, image)
         painter.setTransform(frame.transform(), True)
-        painter.setPen(pen(frame.colours.hover, 1.2))
+        painter.setPen(plan_pen(frame, frame.colours.hover, 1.2))
         painter.drawPath(self._outlines)
 
     def _pixels(self, frame: Frame) -> NDArray[np.uint8]:

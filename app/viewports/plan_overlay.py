@@ -22,6 +22,7 @@ from floorcast_app.viewports.plan_frame import (
     lines_path,
     path_of,
     pen,
+    plan_pen,
     round_length,
     text_size,
 )
@@ -46,10 +47,10 @@ def paint_item(painter: QPainter, frame: Frame, source: PlanSource, item: Item, 
     painter.save()
     painter.setTransform(frame.transform(), True)
     _fill(painter, shape, name, 0.22 if selected else 0.14)
-    painter.setPen(pen(name, 2.4 if selected else 1.8))
+    painter.setPen(plan_pen(frame, name, 2.4 if selected else 1.8))
     painter.drawPath(path_of(shape.areas))
     if shape.infinite is not None or not shape.areas:
-        painter.setPen(pen(name, 4.0 if selected else 3.0))
+        painter.setPen(plan_pen(frame, name, 4.0 if selected else 3.0))
         painter.drawPath(lines_path(shape.lines))
     painter.restore()
 
