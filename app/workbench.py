@@ -80,6 +80,8 @@ class Workbench:
         self.actions: ActionRegistry = all_actions()
         self.ui: Interface = NoInterface()
         self.project: Path | None = None  # where the document is saved; None: nowhere yet
+        # World metres of what corrections and checks are relative to; None: of the survey's local frame
+        self.origin: tuple[float, float] | None = None
         self.plan: FloorPlan | None = None
         self.session: PlanningSession | None = None
         self.points = PointStore()
@@ -154,12 +156,12 @@ class Workbench:
         config = state.config.model_copy(
             update={"input": state.config.input.model_copy(update={"unit": unit, "up": up})}
         )
-        self.project = None
+        self.project = self.origin = None
         self.document.reset(replace(state, config=config), f"Open {Path(path).name}", saved=False)
 
     def read_and_plan(self) -> None:
         """Start the job that reads the survey and plans it from nothing."""
-        ref, state = self.state.survey, self.state
+        ref, state, origin = self.state.survey, self.state, self.origin
         if ref is None:
             return
         self.points = PointStore()
@@ -169,19 +171,19 @@ class Workbench:
             session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
             self._post_session(session)
             session.read(observer, lambda chunk: store.add(chunk))
-            return session, session.plan(state.config, state.corrections, observer)
+            return session, session.plan(state.config, state.corrections, observer, origin=origin)
 
         self.jobs.start(f"Reading {ref.path.name}", work, self._planned)
 
     def replan(self) -> None:
         """Start the job that brings the plan up to date with settings and corrections."""
-        session, state = self.session, self.state
+        session, state, origin = self.session, self.state, self.origin
         if session is None or not session.ready or session.must_read_again(state.config):
             self.read_and_plan()
             return
 
         def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
-            return session, session.plan(state.config, state.corrections, observer)
+            return session, session.plan(state.config, state.corrections, observer, origin=origin)
 
         self.jobs.start("Planning", work, self._planned)
 
@@ -234,7 +236,7 @@ class Workbench:
         :param path: where the document is saved; None: nowhere yet.
         """
         self._close_survey()
-        self.project = path
+        self.project, self.origin = path, loaded.origin
         state = DocumentState(
             survey=None if loaded.survey is None else SurveyRef(*loaded.survey),
             config=loaded.config,
@@ -270,18 +272,21 @@ class Workbench:
             corrections=state.corrections,
             checks=tuple(asdict(c) for c in state.checks),
             view=look_to_dict(self.view.look),
+            origin=self.origin or (self.session.origin if self.session else None),
         )
 
     def relocate(self, path: Path) -> None:
         """The survey of this document lies at ``path`` now."""
         survey = self.state.survey
         assert survey is not None
+        if self.origin is None and self.session is not None:
+            self.origin = self.session.origin  # what was said stays where it was in the world
         self.change(f"Find {path.name}", survey=replace(survey, path=path))
 
     def close_survey(self) -> None:
         """An empty document."""
         self._close_survey()
-        self.project = None
+        self.project = self.origin = None
         self.document.reset(DocumentState(), "New")
 
     def remember(self, path: Path) -> None:
@@ -311,14 +316,30 @@ class Workbench:
     def to_local(self, xy: tuple[float, float]) -> tuple[float, float]:
         """Plan coordinates (manhattan frame) to the local frame that corrections and checks are kept in."""
         assert self.plan is not None
-        x, y, _ = self.plan.frame.from_manhattan([xy])[0]
-        return float(x), float(y)
+        (x, y), origin = self.plan.to_world([xy])[0], self._origin()
+        return float(x) - origin[0], float(y) - origin[1]
 
     def to_plan(self, xy: tuple[float, float]) -> tuple[float, float]:
         """Local coordinates to the manhattan frame of the present plan."""
         assert self.plan is not None
-        x, y = self.plan.frame.plan_from_local([xy])[0]
+        dx, dy = self.shift_to_plan()
+        x, y = self.plan.frame.plan_from_local([(xy[0] + dx, xy[1] + dy)])[0]
         return float(x), float(y)
+
+    def shift_to_plan(self) -> tuple[float, float]:
+        """Metres from the local frame of the document to that of the present plan; nearly always nothing."""
+        assert self.plan is not None
+        shift, origin = self.plan.local_frame.shift, self._origin()
+        return origin[0] - float(shift[0]), origin[1] - float(shift[1])
+
+    def _origin(self) -> tuple[float, float]:
+        """World metres of what corrections and checks are relative to."""
+        assert self.plan is not None
+        if self.origin is not None:
+            return self.origin
+        if self.session is not None:
+            return self.session.origin
+        return float(self.plan.local_frame.shift[0]), float(self.plan.local_frame.shift[1])
 
     # ---- what follows from what -------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from floorplan_core.errors import InputError
 from floorplan_core.model import corrections as kinds
 from floorplan_core.model.corrections import Correction, PlaneAt, Point
 
-FARTHEST = 1e7  # m: nobody surveys a building that large
+FARTHEST = 1e8  # m: no coordinate system of the earth goes farther
 LONGEST = 500  # characters of a label or a name
 MOST_POINTS = 10_000  # of one correction
 

@@ -25,7 +25,7 @@ from floorplan_core.corrections_json import from_json, number, point, text, to_j
 from floorplan_core.digest import digest
 from floorplan_core.errors import InputError, UsageError
 from floorplan_core.files import STAGING_PREFIX, output_error
-from floorplan_core.model.corrections import Correction
+from floorplan_core.model.corrections import Correction, Point
 from floorplan_core.process_ids import is_running
 
 __all__ = ["SUFFIX", "Project", "digest", "load", "read_thumbnail", "save"]
@@ -63,6 +63,8 @@ class Project:
     # Each with id, start, end (metres, local frame), measured (metres or None) and note:
     checks: tuple[Json, ...] = ()
     view: Json = field(default_factory=dict)  # how things are looked at; any JSON values
+    # World metres of what corrections and checks are relative to; None: of the survey's own local frame
+    origin: Point | None = None
     missing: tuple[Path, ...] = ()  # inputs that are not where they were
     notes: tuple[str, ...] = ()  # sentences: what is not as it was saved
 
@@ -165,6 +167,7 @@ def _tree(project: Project, folder: Path) -> Json:
         "version": VERSION,
         "program": __version__,
         "survey": None if project.survey is None else _survey_json(project.survey, folder),
+        "origin": None if project.origin is None else list(project.origin),
         "config": project.config.model_dump(mode="json"),
         "corrections": to_json(project.corrections),
         "checks": [dict(c) for c in project.checks],
@@ -214,12 +217,14 @@ def _project(tree: Json, folder: Path) -> Project:
     view = tree.get("view", {})
     if not isinstance(view, dict):
         raise ValueError("its view is not a table")
+    origin = tree.get("origin")
     return Project(
         survey,
         config,
         from_json(tree.get("corrections", [])),
         _checks(tree.get("checks", [])),
         view,
+        None if origin is None else point(origin),
         missing,
         (*notes, *unknown),
     )

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING
 from floorplan_core.config import Config
 from floorplan_core.errors import UsageError
 from floorplan_core.model import GridMap, PointChunk, Reconstruction
-from floorplan_core.model.corrections import Correction
+from floorplan_core.model.corrections import Correction, Point
 from floorplan_core.observer import Observer
+from floorplan_core.stages.corrections import shifted
 from floorplan_core.stages.region_names import NamesOfSession
 from floorplan_core.steps import StepMemory
 
@@ -112,12 +113,25 @@ class PlanningSession:
         planner.config = config
         return planner.storeys()
 
+    @property
+    def origin(self) -> Point:
+        """World metres of the origin of the survey's local frame: what corrections are relative to."""
+        x, y, _ = self.reconstruction.local_frame.shift
+        return float(x), float(y)
+
     def plan(
-        self, config: Config, corrections: Sequence[Correction], observer: Observer, storey: int = 0
+        self,
+        config: Config,
+        corrections: Sequence[Correction],
+        observer: Observer,
+        storey: int = 0,
+        origin: Point | None = None,
     ) -> FloorPlan:
         """The plan with these settings and corrections; only what they change is made anew.
 
         :param storey: number of the storey, 0 for the lowest or the only one.
+        :param origin: what the corrections are relative to, where they come from another survey of the same
+            place; None: this survey's :attr:`origin`.
         :raises NoPlanError: where no plan can be made; :class:`UsageError` before :meth:`read`.
         """
         memory = self._memory.setdefault(storey, StepMemory())
@@ -127,7 +141,9 @@ class PlanningSession:
             return plan_grid_map(self._grid_map, config, observer, corrections, memory, self._names)
         planner = self._read_planner()
         planner.config, planner.observer = config, observer
-        plan = planner.plan(storey=storey, corrections=corrections, memory=memory)
+        here, there = planner.local_frame.shift + planner.map.own.centre, origin or self.origin
+        said = shifted(corrections, (there[0] - float(here[0]), there[1] - float(here[1])))
+        plan = planner.plan(storey=storey, corrections=said, memory=memory)
         plan.seconds["read"] = self._read_seconds - plan.seconds["integrate"]
         return plan
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from hypothesis import strategies as st
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.exporters.geojson import geojson_text
-from floorplan_core.model import FloorPlan
+from floorplan_core.model import FloorPlan, LocalFrame
 from floorplan_core.model import corrections as c
+from floorplan_core.observer import Observer
 from floorplan_core.session import PlanningSession
 from tests.plan_invariants import assert_valid
 from tests.sessions import (
@@ -327,6 +329,24 @@ def test_a_label_reruns_nothing_and_a_door_not_what_is_before_it(session, machin
     label = c.LabelRegion(_inside(machine, machine.regions[0]), "kitchen")
     assert stages_run(session, Config(), (label,))[1] == []
     assert "planes" not in stages_run(session, Config(), (c.RejectDoor(_door_at(machine)),))[1]
+
+
+def test_corrections_stay_where_they_are_in_the_world(session, machine):
+    """On the same building with another local frame, and with the voxels along its own axes."""
+    _, right = left_and_right(machine)
+    said = c.NameRegion(_inside(machine, right), "Store")
+    moved = replace(session.reconstruction, local_frame=LocalFrame(shift=np.array([500.0, -200.0, 0.0])))
+    other = PlanningSession(moved, Config())
+    other.read(Observer())
+    assert other.origin == (500.0, -200.0)
+    there = c.NameRegion((said.at[0] + 20.0, said.at[1] - 10.0), "Store")
+    made = other.plan(Config(), (there,), Observer(), origin=(480.0, -190.0))
+    assert left_and_right(made)[1].name == "Store"
+    own = Config().with_values({"voxels.own_axes": "true"})
+    made = plan(two_room_session(own), said, config=own)
+    named = next(r for r in made.regions if r.name == "Store")
+    middle = machine.to_world(np.array([right.polygon.centroid.coords[0]]))
+    assert made.to_world(np.array([named.polygon.centroid.coords[0]])) == pytest.approx(middle, abs=0.05)
 
 
 def test_corrections_hold_on_other_settings(session, machine):

@@ -52,7 +52,12 @@ def survey(tmp_path: Path) -> Path:
 def _project(survey: Path) -> Project:
     config = Config().with_values({"doors.max_width": "1.4", "regions.min_area": "1.0"})
     return Project(
-        (survey, None, ""), config, EVERY, (CHECK,), {"look": {"span": 12.5}, "layers": ["points"]}
+        (survey, None, ""),
+        config,
+        EVERY,
+        (CHECK,),
+        {"look": {"span": 12.5}, "layers": ["points"]},
+        (3.5e5, 5.6e6),
     )
 
 
@@ -159,6 +164,7 @@ BAD = {
     "a setting out of bounds": lambda t: t["config"]["doors"].update(bin=-1),
     "settings that are a list": lambda t: t.update(config=[1]),
     "a view that is a list": lambda t: t.update(view=[1]),
+    "an origin of three numbers": lambda t: t.update(origin=[1, 2, 3]),
     "a check without a start": lambda t: t["checks"][0].pop("start"),
     "a path with a zero byte": lambda t: t["survey"].update(absolute="/a\0b"),
     "a path that is a number": lambda t: t["survey"].update(absolute=5),

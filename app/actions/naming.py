@@ -29,7 +29,7 @@ from floorplan_core.model.corrections import (
     ResizeDoor,
     SplitRegion,
 )
-from floorplan_core.stages.corrections import REACH, in_plan
+from floorplan_core.stages.corrections import REACH, in_plan, shifted
 from floorplan_core.stages.corrections_doors import find_door
 from floorplan_core.stages.corrections_walls import facing_of, find_plane
 
@@ -116,7 +116,7 @@ def about(workbench: Workbench, item: Item) -> frozenset[int]:
 
 def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
     assert workbench.plan is not None
-    said = in_plan([correction], workbench.plan.frame)
+    said = in_plan(shifted([correction], workbench.shift_to_plan()), workbench.plan.frame)
     return (*said.walls, *said.doors, *said.shapes, *said.names)[0]
 
 

@@ -8,7 +8,7 @@ nothing is a sentence for the user, never an error.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -41,6 +41,7 @@ NAME_KINDS = (LabelRegion, NameRegion)
 REACH = 0.5  # m from the point of a correction, within which the thing it is about must lie
 
 Span = tuple[float, float]
+Move = Callable[[Sequence[Point], bool], tuple[Point, ...]]  # places, or directions where True
 
 
 @dataclass(frozen=True)
@@ -75,9 +76,27 @@ class Said:
     names: tuple[Correction, ...] = ()
 
 
+def shifted(corrections: Sequence[Correction], by: Point) -> tuple[Correction, ...]:
+    """The corrections with all places moved by ``by`` metres; the same ones where that is nothing."""
+    if not any(by):
+        return tuple(corrections)
+
+    def move(points: Sequence[Point], direction: bool) -> tuple[Point, ...]:
+        return tuple(points) if direction else tuple((x + by[0], y + by[1]) for x, y in points)
+
+    return tuple(_moved(c, move) for c in corrections)
+
+
 def in_plan(corrections: Sequence[Correction], frame: ManhattanFrame) -> Said:
     """The corrections with all points in manhattan coordinates."""
-    moved: list[Correction] = [_moved(c, frame) for c in corrections]
+
+    def move(points: Sequence[Point], direction: bool) -> tuple[Point, ...]:
+        moved = frame.plan_from_local(np.array(points, dtype=np.float64).reshape(-1, 2))
+        if direction:
+            moved = moved - frame.plan_from_local(np.zeros((1, 2)))
+        return tuple((float(x), float(y)) for x, y in moved)
+
+    moved: list[Correction] = [_moved(c, move) for c in corrections]
 
     def of(kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:
         return tuple(c for c in moved if isinstance(c, kinds))
@@ -85,27 +104,20 @@ def in_plan(corrections: Sequence[Correction], frame: ManhattanFrame) -> Said:
     return Said(of(WALL_KINDS), of(DOOR_KINDS), of(SHAPE_KINDS), of(NAME_KINDS))
 
 
-def _moved(correction: Any, frame: ManhattanFrame) -> Any:
+def _moved(correction: Any, move: Move) -> Any:
     """A correction, or a part of one, with its points moved."""
 
     def value(name: str, old: Any) -> Any:
         if isinstance(old, PlaneAt):
-            return _moved(old, frame)
-        if not isinstance(old, tuple):
+            return _moved(old, move)
+        if not isinstance(old, tuple) or not old:
             return old
-        if name == "normal":
-            return _points([old], frame, direction=True)[0]
-        return _points(old, frame) if old and isinstance(old[0], tuple) else _points([old], frame)[0]
+        many = isinstance(old[0], tuple)
+        points = move(old if many else [old], name == "normal")
+        return points if many else points[0]
 
     values = {f.name: value(f.name, getattr(correction, f.name)) for f in fields(correction)}
     return replace(correction, **values)
-
-
-def _points(points: Sequence[Point], frame: ManhattanFrame, direction: bool = False) -> tuple[Point, ...]:
-    moved = frame.plan_from_local(np.array(points, dtype=np.float64).reshape(-1, 2))
-    if direction:
-        moved = moved - frame.plan_from_local(np.zeros((1, 2)))
-    return tuple((float(x), float(y)) for x, y in moved)
 
 
 def place(point: Point) -> str:
