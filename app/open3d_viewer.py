@@ -248,6 +248,7 @@ def show_file(path: str) -> None:
     o3d = load_open3d()
     o3d.utility.set_verbosity_level(o3d.utility.VerbosityLevel.Error)
     geometries = [geometry_of(part) for part in load_parts(Path(path))]
+    shutil.rmtree(Path(path).parent, ignore_errors=True)  # here, too: the window may be closed before us
     viewer = o3d.visualization.Visualizer()
     if not viewer.create_window(TITLE, 1280, 800):
         sys.exit(NO_OPENGL)
