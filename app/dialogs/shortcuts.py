@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from floorcast_app.main_window import MainWindow
 
 COLUMNS = 3
+LONGEST_KEYS = 18  # characters of a shortcut that stands beside what it does
 GESTURES = (
     ("Click", "Select; with Ctrl add to the selection"),
     ("Double click", "Bring it into view"),
@@ -38,9 +39,9 @@ class ShortcutsSheet(Dialog):
         super().__init__(tr("Shortcuts"), parent)
         columns = [QVBoxLayout() for _ in range(COLUMNS)]
         heights = [0] * COLUMNS
-        for title, rows in groups(workbench):
+        for title, rows in sorted(groups(workbench), key=lambda g: -_height(g[1])):
             at = heights.index(min(heights))
-            heights[at] += len(rows) + 2
+            heights[at] += _height(rows)
             columns[at].addWidget(_group(title, rows))
         inner = QWidget()
         line = QHBoxLayout(inner)
@@ -53,7 +54,7 @@ class ShortcutsSheet(Dialog):
         self.body.addWidget(label(tr("Shortcuts and gestures"), "heading"))
         self.body.addWidget(scrolling(inner), 1)
         self.add_close(tr("Close"))
-        self.resize(980, 620)
+        self.resize(980, 660)
 
     def open_over(self, parent: QWidget) -> None:
         size = self.size()
@@ -89,12 +90,24 @@ def _group(title: str, rows: list[tuple[str, str]]) -> QWidget:
     grid = QGridLayout()
     grid.setHorizontalSpacing(2 * GRID)
     grid.setVerticalSpacing(6)
-    grid.setColumnStretch(1, 1)
+    long = _long(rows)
     for i, (keys, what) in enumerate(rows):
-        grid.addLayout(_keys(keys), i, 0, Qt.AlignmentFlag.AlignTop)
-        grid.addWidget(label(what, wrap=True), i, 1, Qt.AlignmentFlag.AlignTop)
+        below = (2 * i + 1, 0) if long else (i, 1)
+        grid.addLayout(_keys(keys), 2 * i if long else i, 0, Qt.AlignmentFlag.AlignTop)
+        grid.addWidget(label(what, "small" if long else "", wrap=True), *below, Qt.AlignmentFlag.AlignTop)
+    grid.setColumnStretch(0 if long else 1, 1)
     layout.addLayout(grid)
     return holder
+
+
+def _long(rows: list[tuple[str, str]]) -> bool:
+    """True for gestures, which are words: what they do stands below them."""
+    return max(len(max(keys.split(" | "), key=len)) for keys, _ in rows) > LONGEST_KEYS
+
+
+def _height(rows: list[tuple[str, str]]) -> int:
+    """Lines that a group takes: the largest are laid out first."""
+    return len(rows) * (2 if _long(rows) else 1) + 2
 
 
 def _keys(keys: str) -> QHBoxLayout:
