@@ -19,15 +19,21 @@ Float = NDArray[np.float64]
 _log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Wanted:
-    """What the points are wanted for."""
+    """What the points are wanted for. Stores and plans are compared by identity: they hold arrays."""
 
     store: PointStore
     plan: FloorPlan | None
     colour: str  # one of POINT_COLOURS
     theme: str
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  # metres: of the plan's local frame in the points'
+
+    def same(self, other: Wanted | None) -> bool:
+        """True where both want the same."""
+        if other is None or self.store is not other.store or self.plan is not other.plan:
+            return False
+        return (self.colour, self.theme, self.origin) == (other.colour, other.theme, other.origin)
 
 
 @dataclass(frozen=True)

@@ -176,7 +176,7 @@ class SpaceView(QWidget):
             self._want_points()
 
     def _points_loaded(self, loaded: Loaded) -> None:
-        if loaded.wanted != self._wanted:
+        if not loaded.wanted.same(self._wanted):
             return
         self._loaded = loaded
         if len(loaded.cloud):  # the first time imports and compiles, and tells nothing
@@ -193,7 +193,7 @@ class SpaceView(QWidget):
 
     def _shows(self, wanted: Wanted) -> bool:
         loaded = self._loaded
-        return loaded is not None and loaded.wanted == wanted and len(loaded.cloud) == len(wanted.store)
+        return loaded is not None and wanted.same(loaded.wanted) and len(loaded.cloud) == len(wanted.store)
 
     def subject(self, width: int, height: int, loaded: Loaded | None = None) -> Subject:
         """What is to be seen in a picture of ``width`` x ``height`` pixels, with the points loaded so far."""

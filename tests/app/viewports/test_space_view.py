@@ -242,6 +242,23 @@ def test_points_are_shown_before_there_is_a_plan(qtbot, qapp) -> None:
     view.shut_down()
 
 
+def test_a_new_plan_takes_the_place_of_the_old(qtbot, pane: SpaceView) -> None:
+    """Also while points are still on their way for the old one."""
+    fill(pane.workbench)
+    plans = [small_flat(), small_flat(), small_flat()]
+    for plan in plans:
+        pane.workbench.plan = plan
+        pane.workbench.plan_changed.emit(plan)
+        QTest.qWait(5)
+    qtbot.waitUntil(
+        lambda: pane._loaded is not None and pane._loaded.wanted.plan is plans[-1], timeout=PATIENCE
+    )
+    assert pane.picture(200, 150).width() == 200
+    pane.workbench.plan = None
+    pane.workbench.plan_changed.emit(None)
+    qtbot.waitUntil(lambda: pane.frame.request.scene.items == (), timeout=PATIENCE)
+
+
 def test_a_picture_has_any_size_and_is_always_the_same(pane: SpaceView) -> None:
     fill(pane.workbench)
     one, two = pane.picture(500, 350), pane.picture(500, 350)
