@@ -71,12 +71,13 @@ def as_rgb(channels: NDArray[Any]) -> NDArray[np.uint8]:
     """
     if channels.dtype == np.uint8:
         return np.asarray(channels, dtype=np.uint8)
-    largest = np.nanmax(channels) if channels.size else 0
-    if channels.dtype.kind == "f" and largest <= 1.0:
-        channels = np.round(channels * BYTE)
+    known = np.nan_to_num(channels)
+    largest = float(known.max()) if known.size else 0.0
+    if known.dtype.kind == "f" and largest <= 1.0:
+        known = np.round(known * BYTE)
     elif largest > BYTE:
-        channels = channels // HIGH_BYTE
-    return np.clip(np.nan_to_num(channels), 0, BYTE).astype(np.uint8)
+        known = known // HIGH_BYTE
+    return np.asarray(np.clip(known, 0, BYTE), dtype=np.uint8)
 
 
 def unpack_rgb(packed: NDArray[Any]) -> NDArray[np.uint8] | None:
