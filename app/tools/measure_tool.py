@@ -6,8 +6,11 @@ import itertools
 
 from floorcast_app import format
 from floorcast_app.layers.snap_index import Snap
+from floorcast_app.layers.source import PlanSource
 from floorcast_app.tools.draw_tools import TwoPointTool
 from floorcast_app.tools.gestures import SNAP, At, Mark, Point, distance, straight
+from floorcast_app.view_state import Look
+from floorplan_core.model import Region
 
 FEWEST_CORNERS = 3
 AREA_KEY = "a"
@@ -19,13 +22,14 @@ class MeasureTool(TwoPointTool):
     name = "measure"
     role = "selection"
     hint = "Click two points; walls, corners and jambs snap, Shift measures square. A measures an area."
-    area_hint = "Click the corners; Enter or a double click closes the area. A measures distances again."
+    area_hint = "Click corners and press Enter, or double-click a region. A measures distances again."
 
     def __init__(self, workbench: object) -> None:
         super().__init__(workbench)
         self._wall: int | None = None  # axis of the wall that the first click lies on
         self._corners: list[Point] | None = None  # of an area; None: distances are measured
         self._closed = False
+        self._region: Region | None = None  # whose whole floor is measured
 
     @property
     def busy(self) -> bool:
@@ -56,6 +60,8 @@ class MeasureTool(TwoPointTool):
     def double(self, at: At) -> bool:
         if self._corners is None:
             return self.busy
+        if len(self._corners) < FEWEST_CORNERS:
+            self._take_region(at)
         self._close()
         return True
 
@@ -72,7 +78,7 @@ class MeasureTool(TwoPointTool):
 
     def cancel(self) -> bool:
         if self._corners:
-            self._corners, self._closed = [], False
+            self._corners, self._closed, self._region = [], False, None
             return True
         self._wall = None
         return super().cancel()
@@ -94,7 +100,7 @@ class MeasureTool(TwoPointTool):
 
     def _add_corner(self, at: At) -> None:
         if self._closed:
-            self._corners, self._closed = [], False
+            self._corners, self._closed, self._region = [], False, None
         corners = self._corners
         assert corners is not None
         snap = self.snap(at)
@@ -110,6 +116,13 @@ class MeasureTool(TwoPointTool):
         else:
             self._here = self.snap(at)
 
+    def _take_region(self, at: At) -> None:
+        """All of the region under the pointer."""
+        self._region = region_at(self.source, at.xy)
+        if self._region is not None:
+            ring = self._region.polygon.exterior.coords[:-1]
+            self._corners = [(float(x), float(y)) for x, y in ring]
+
     def _close(self) -> None:
         self._closed = self._corners is not None and len(self._corners) >= FEWEST_CORNERS
 
@@ -119,9 +132,19 @@ class MeasureTool(TwoPointTool):
         units = self.workbench.view.look.units
         ring = (*corners, corners[0])
         around = sum(distance(a, b) for a, b in itertools.pairwise(ring))
-        text = f"{format.area(polygon_area(corners), units)}  ·  {format.length(around, units)}"
         middle = (sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners))
-        return (Mark("text", (middle,), text=text),)
+        region = self._region or region_at(self.source, middle)
+        inside = self._region.area if self._region is not None else polygon_area(corners)
+        parts = [format.area(inside, units), format.length(around, units)]
+        if region is not None and region.height is not None:
+            parts.append(f"↕ {format.length(region.height, units)}")
+        return (Mark("text", (middle,), text="  ·  ".join(parts)),)
+
+
+def region_at(source: PlanSource | None, at: Point) -> Region | None:
+    """The region that holds a place; None where none does."""
+    item = source.hits.at(*at, 0.0, Look(), ("region",)) if source is not None else None
+    return source.regions[item.id] if source is not None and item is not None else None
 
 
 def polygon_area(corners: tuple[Point, ...]) -> float:

@@ -348,16 +348,16 @@
    <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
   </message>
   <message>
+   <source>Click corners and press Enter, or double-click a region. A measures distances again.</source>
+   <translation>Ecken anklicken und Eingabe drücken oder eine Region doppelt anklicken. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click on a wall: a door needs one.</source>
    <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
   </message>
   <message>
    <source>Click on two sides of a region: it is cut along the line.</source>
    <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
-  </message>
-  <message>
-   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
-   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
   </message>
   <message>
    <source>Click to select, drag what is selected.</source>
@@ -3443,16 +3443,16 @@
    <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
   </message>
   <message>
+   <source>Click corners and press Enter, or double-click a region. A measures distances again.</source>
+   <translation>Ecken anklicken und Eingabe drücken oder eine Region doppelt anklicken. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click on a wall: a door needs one.</source>
    <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
   </message>
   <message>
    <source>Click on two sides of a region: it is cut along the line.</source>
    <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
-  </message>
-  <message>
-   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
-   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
   </message>
   <message>
    <source>Click to select, drag what is selected.</source>
@@ -6538,16 +6538,16 @@
    <translation>Beide Laibungen auf einer Wand anklicken oder die Breite tippen. Enden der gewählten Tür ziehen.</translation>
   </message>
   <message>
+   <source>Click corners and press Enter, or double-click a region. A measures distances again.</source>
+   <translation>Ecken anklicken und Eingabe drücken oder eine Region doppelt anklicken. A misst wieder Strecken.</translation>
+  </message>
+  <message>
    <source>Click on a wall: a door needs one.</source>
    <translation>Auf eine Wand klicken: Eine Tür braucht eine.</translation>
   </message>
   <message>
    <source>Click on two sides of a region: it is cut along the line.</source>
    <translation>Zwei Seiten einer Region anklicken: Sie wird entlang der Linie geteilt.</translation>
-  </message>
-  <message>
-   <source>Click the corners; Enter or a double click closes the area. A measures distances again.</source>
-   <translation>Ecken anklicken; Eingabe oder Doppelklick schließt die Fläche. A misst wieder Strecken.</translation>
   </message>
   <message>
    <source>Click to select, drag what is selected.</source>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -107,6 +108,21 @@ def test_an_area_by_its_corners(pane, drawn):
     assert drawn.state.checks == ()
     QTest.keyClick(pane, Qt.Key.Key_Escape)
     assert not drawn.toolbox.busy
+
+
+@pytest.mark.parametrize("height", [None, 2.71])
+def test_a_double_click_measures_a_whole_region_with_its_height(qtbot, drawn, height):
+    regions = tuple(replace(r, height=height) for r in drawn.plan.regions)
+    drawn.plan = replace(drawn.plan, regions=regions)
+    pane = opened(qtbot, FloorPlanView(drawn))
+    drawn.set_tool("measure")
+    region = max(regions, key=lambda r: len(r.polygon.exterior.coords))
+    QTest.keyClick(pane, Qt.Key.Key_A)
+    at = pixel(pane, region.polygon.representative_point().coords[0])
+    QTest.mouseDClick(pane, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at)
+    (text,) = [m.text for m in drawn.toolbox.marks() if m.kind == "text"]
+    assert text.startswith(f"{region.area:.2f} m²")
+    assert ("↕ 2.710 m" in text) == (height is not None)
 
 
 def test_a_gesture_may_end_in_another_pane(qtbot, pane, drawn):
