@@ -202,9 +202,17 @@ def _decode_dataclass(parts: list[Any], pools: dict[str, NDArray[Any]]) -> Any:
     for name, hint in _hints(kind).items():
         if name in values and not conforms(values[name], hint):
             raise Malformed(f"{parts[0]}.{name} is a {type(values[name]).__name__}, which it cannot be")
-    if set(values) != {f.name for f in dataclasses.fields(kind)}:
+    if not _required(kind) <= set(values) <= {f.name for f in dataclasses.fields(kind)}:
         raise Malformed(f"its {parts[0]} comes from another version of Floorcast")
     return kind(**values)
+
+
+@lru_cache(maxsize=64)
+def _required(kind: type) -> frozenset[str]:
+    """The fields without a default: files of earlier versions lack those that came later."""
+    none = dataclasses.MISSING
+    fields = dataclasses.fields(kind)  # type: ignore[arg-type]
+    return frozenset(f.name for f in fields if f.default is none and f.default_factory is none)
 
 
 def _known(name: Any) -> type:

@@ -217,6 +217,20 @@ DAMAGES: dict[str, Any] = {
 }
 
 
+def test_a_file_of_an_earlier_version_lacks_what_has_a_default(tmp_path: Path) -> None:
+    """Plans that were saved before corrections came are read: nothing in them was corrected."""
+
+    def without_corrections(tree: dict[str, Any]) -> None:
+        root = tree["root"]
+        for name in ("corrected", "machine"):
+            at = root.index(name)
+            del root[at : at + 2]
+
+    path = tmp_path / "old.floorplan"
+    path.write_bytes(altered(without_corrections))
+    assert intermediates.load(path, FloorPlan).corrected == ()
+
+
 @pytest.mark.parametrize("words", DAMAGES)
 def test_a_tree_that_makes_no_sense_is_refused(words: str, tmp_path: Path) -> None:
     assert words in refused(altered(DAMAGES[words]), tmp_path)
