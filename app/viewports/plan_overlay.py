@@ -125,7 +125,7 @@ def paint_scale(painter: QPainter, frame: Frame) -> None:
     text = f"{value:g} ft" if feet else (f"{value * 100:g} cm" if value < 1 else f"{value:g} m")
     box = QRectF(x - 8, y - 24, width + 16, 32)
     painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour(frame.colours.panel, 0.82))
+    painter.setBrush(colour(frame.colours.panel, 0.93))
     painter.drawRoundedRect(box, 5, 5)
     painter.setPen(pen(frame.colours.text, 1.6))
     painter.drawPolyline([QPointF(x, y - 5), QPointF(x, y), QPointF(x + width, y), QPointF(x + width, y - 5)])
