@@ -44,6 +44,8 @@ EXTRA = (  # words of the core that lists show
     "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
     "furniture", "auto", "greedy", "exact", "metres", "centimetres", "millimetres", "feet", "rejected",
     "resized",
+    "Room {0}",
+    "Corridor {0}",
     "floor to ceiling is then {0} m", "the height is then {0} m",
     "the points are flat, so only their extent could tell",
 )  # fmt: skip

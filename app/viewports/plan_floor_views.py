@@ -11,6 +11,7 @@ from floorcast_app import format
 from floorcast_app.layers.dimensions import DimensionsLayer, Row, Width
 from floorcast_app.layers.regions import RegionShape, RegionsLayer
 from floorcast_app.layers.walls import DoorShape, DoorsLayer, WallsLayer
+from floorcast_app.translation import tr_text
 from floorcast_app.viewports.plan_frame import (
     BODY,
     NAME,
@@ -153,7 +154,7 @@ def theme_tone(frame: Frame, label: str) -> str:
 def fitting_lines(frame: Frame, shape: RegionShape) -> list[tuple[str, int, int]]:
     """(text, pixels, weight) of as many lines as have room; else the number alone, else nothing."""
     units, scale = frame.look.units, frame.camera.scale
-    lines = [(shape.name, NAME, 600), (format.area(shape.area, units), BODY, 400)]
+    lines = [(tr_text(shape.name), NAME, 600), (format.area(shape.area, units), BODY, 400)]
     if shape.clear is not None:
         lines.append(
             (" × ".join(format.length(v, units).removesuffix(" m") for v in shape.clear), SMALL, 400)

@@ -456,6 +456,10 @@
    <translation>Korrektur</translation>
   </message>
   <message>
+   <source>Corridor {0}</source>
+   <translation>Flur {0}</translation>
+  </message>
+  <message>
    <source>Cover</source>
    <translation>Überdeckung</translation>
   </message>
@@ -1798,6 +1802,10 @@
   <message>
    <source>Room or corridor, by perimeter and turning distance</source>
    <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room {0}</source>
+   <translation>Raum {0}</translation>
   </message>
   <message>
    <source>Room, corridor or any other word</source>
@@ -3551,6 +3559,10 @@
    <translation>Korrektur</translation>
   </message>
   <message>
+   <source>Corridor {0}</source>
+   <translation>Flur {0}</translation>
+  </message>
+  <message>
    <source>Cover</source>
    <translation>Überdeckung</translation>
   </message>
@@ -4893,6 +4905,10 @@
   <message>
    <source>Room or corridor, by perimeter and turning distance</source>
    <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room {0}</source>
+   <translation>Raum {0}</translation>
   </message>
   <message>
    <source>Room, corridor or any other word</source>
@@ -6646,6 +6662,10 @@
    <translation>Korrektur</translation>
   </message>
   <message>
+   <source>Corridor {0}</source>
+   <translation>Flur {0}</translation>
+  </message>
+  <message>
    <source>Cover</source>
    <translation>Überdeckung</translation>
   </message>
@@ -7988,6 +8008,10 @@
   <message>
    <source>Room or corridor, by perimeter and turning distance</source>
    <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
+  </message>
+  <message>
+   <source>Room {0}</source>
+   <translation>Raum {0}</translation>
   </message>
   <message>
    <source>Room, corridor or any other word</source>
