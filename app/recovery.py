@@ -96,7 +96,7 @@ class Recovery:
 
     def _write(self, form: Project, note: dict[str, Any]) -> None:
         self._hold()
-        save(self.autosave, form)
+        save(self.autosave, form, take_digest=False)  # at every change: a large folder takes a while
         write_whole(self.autosave.with_suffix(_NOTE), json.dumps(note).encode())
 
     def _hold(self) -> None:

@@ -69,14 +69,15 @@ class Project:
     notes: tuple[str, ...] = ()  # sentences: what is not as it was saved
 
 
-def save(path: Path, project: Project, thumbnail: bytes | None = None) -> None:
+def save(path: Path, project: Project, thumbnail: bytes | None = None, take_digest: bool = True) -> None:
     """Write ``project`` to ``path``, whole or not at all.
 
     :param thumbnail: a small PNG of the plan, for the list of recent projects.
+    :param take_digest: look at the input as it is now; False: keep the digest that is known.
     :raises OutputError: where it cannot be written; what was there stays.
     """
     path = Path(os.path.realpath(path))  # through a link: the file, not the link, is replaced
-    tree = json.dumps(_tree(project, path.parent), ensure_ascii=False, allow_nan=False, indent=1)
+    tree = json.dumps(_tree(project, path.parent, take_digest), ensure_ascii=False, allow_nan=False, indent=1)
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         _add(archive, _TREE, tree.encode())
@@ -159,14 +160,14 @@ def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
     archive.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED)
 
 
-def _tree(project: Project, folder: Path) -> Json:
+def _tree(project: Project, folder: Path, take_digest: bool) -> Json:
     from floorplan_core import __version__
 
     return {
         "format": FORMAT,
         "version": VERSION,
         "program": __version__,
-        "survey": None if project.survey is None else _survey_json(project.survey, folder),
+        "survey": None if project.survey is None else _survey_json(project.survey, folder, take_digest),
         "origin": None if project.origin is None else list(project.origin),
         "config": project.config.model_dump(mode="json"),
         "corrections": to_json(project.corrections),
@@ -175,12 +176,12 @@ def _tree(project: Project, folder: Path) -> Json:
     }
 
 
-def _survey_json(survey: Survey, folder: Path) -> Json:
+def _survey_json(survey: Survey, folder: Path, take_digest: bool) -> Json:
     path, trajectory, known = survey
     return {
         **_path_json(path, folder),
         "trajectory": None if trajectory is None else _path_json(trajectory, folder),
-        "digest": digest(path) or known,
+        "digest": (digest(path) if take_digest else "") or known,
     }
 
 
