@@ -4,7 +4,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo-plan
 
-.PHONY: help setup demo test check format bench bench-ui accuracy app app-test docs clean
+.PHONY: help setup demo test check format bench bench-ui bench-io fuzz accuracy app app-test docs clean
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -34,6 +34,12 @@ format: $(READY) ## put the code into the house format
 
 bench: $(READY) ## stage times beside the time to read, growth, greedy against optimal
 	$(BIN)/python -m benchmarks
+
+bench-io: $(READY) ## reading and planning large files beside plain reading: MB/s and most memory
+	$(BIN)/python -m benchmarks.bench_io
+
+fuzz: $(READY) ## damaged files of every format: a survey or one sentence, never a crash; minutes
+	$(BIN)/python -m benchmarks.fuzz
 
 accuracy: $(READY) ## plans of surveys with known truth, measured
 	$(BIN)/python -m benchmarks.accuracy

@@ -91,7 +91,7 @@ def _check_chunk_table(path: Path, head: LasHead, total: int) -> None:
 
 
 def reference_system(vlrs: Any) -> tuple[str, str]:
-    """CRS (WKT or "EPSG:n", "" where none) and unit ("m", "ft", "us-ft", "deg" or "auto") that a file states."""
+    """CRS (WKT or "EPSG:n", "" where none), unit ("m", "ft", "us-ft", "deg" or "auto") that a file states."""
     for vlr in vlrs:
         text = getattr(vlr, "string", "")
         if type(vlr).__name__ == "WktCoordinateSystemVlr" and text:

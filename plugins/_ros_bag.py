@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from floorcast_plugins._bounded import bound_rosbags
 from floorplan_core.api import damaged, import_library
 
 PACKAGE = "rosbags"
@@ -33,6 +34,7 @@ def opened(path: Path, types: Any = None) -> Iterator[Any]:
     messages are compiled once.
     """
     import_library("rosbags.highlevel", PACKAGE, "ROS bags")
+    bound_rosbags()
     with damaged(path.name, "ROS recording"), _reader(path, types) as reader:
         yield reader
 
