@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numba import njit
@@ -30,18 +31,21 @@ def refine_edges(
     doors: Sequence[Door], planes: Sequence[LayoutPlane], evidence: Evidence
 ) -> tuple[Door, ...]:
     """The doors with start, end and height measured on the surfels near them."""
-    boxes = np.array([_window(door) for door in doors]).reshape(-1, 4)
-    owner, index = _collect(
-        evidence.xyz, boxes, evidence.origin, evidence.cell, evidence.shape[0], evidence.shape[1]
-    )
+    near = points_in_boxes(evidence, np.array([_window(door) for door in doors]).reshape(-1, 4))
     facing = {p.id: p.facing for p in planes}
     signs = [0 if d.thickness > 0 else facing[d.planes[0]].sign for d in doors]
-    order = np.argsort(owner, kind="stable")
-    bounds = np.searchsorted(owner[order], np.arange(len(doors) + 1))
     return tuple(
-        _refined(door, sign, evidence.xyz[index[order[bounds[k] : bounds[k + 1]]]])
-        for k, (door, sign) in enumerate(zip(doors, signs, strict=True))
+        _refined(door, sign, evidence.xyz[rows]) for door, sign, rows in zip(doors, signs, near, strict=True)
     )
+
+
+def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]:
+    """For each of the (K, 4) boxes x0, y0, x1, y1 (metres) the rows of the surfels in it, in order."""
+    ny, nx = evidence.shape
+    owner, index = _collect(evidence.xyz, boxes, evidence.origin, evidence.cell, ny, nx)
+    order = np.argsort(owner, kind="stable")
+    bounds = np.searchsorted(owner[order], np.arange(len(boxes) + 1))
+    return [index[order[a:b]] for a, b in pairwise(bounds)]
 
 
 def _window(door: Door) -> tuple[float, float, float, float]:

@@ -19,6 +19,7 @@ from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, free_share, measure
+from floorplan_core.stages.shut_doors import find_shut_doors
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     judged = [_judged(c, lintels) for c in merged]
     likely = [d for d in judged if d.confidence >= config.min_confidence]
     kept = [_kind(d, config) for d in refine_edges(likely, planes, evidence)]
+    kept += find_shut_doors(planes, evidence, kept, config)
     kept.sort(key=lambda d: (d.axis, d.offset, d.start))
     return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
 
