@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import math
 import time
+from collections import deque
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +34,7 @@ Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
+PIECE = 50_000  # points whose rays a thread follows before it asks for more
 SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
 
 
@@ -41,6 +44,7 @@ class SurveyMap:
     def __init__(self, config: Config) -> None:
         self.surfels = SurfelMap(config.voxels.size / 2)
         self.rays = MissMap(config.voxels.size)
+        self._more_rays = MissMap(config.voxels.size)  # those that the second thread followed
         self.seconds = 0.0  # spent on integrating so far
         self.planar = False  # True: a planar scan, lifted
         self.own = OwnFrame()  # of the map: what takes the local frame into it
@@ -52,6 +56,7 @@ class SurveyMap:
         self._lattice: float | None = (
             None  # m between the points of a voxel map; 0: none; None: not known yet
         )
+        self._sample: tuple[int, Surfels] | None = None  # the last one, of so many points
         self._waiting: list[Scan] = []  # what came before that was known
 
     def expect(self, points: int) -> None:
@@ -105,10 +110,14 @@ class SurveyMap:
                 self.own = own_frame(first)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
+        self.rays.take(self._more_rays)
 
     def sample(self) -> Surfels:
         """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
-        return self.surfels.surfels(every=max(1, len(self.surfels) // SAMPLE_SURFELS))
+        if self._sample is None or self._sample[0] != self.surfels.points:
+            every = max(1, len(self.surfels) // SAMPLE_SURFELS)
+            self._sample = self.surfels.points, self.surfels.surfels(every)
+        return self._sample[1]
 
     def frame(self, config: FrameConfig) -> ManhattanFrame:
         """The Manhattan frame of the local frame (about the map's centre), estimated on the map."""
@@ -149,8 +158,17 @@ class SurveyMap:
     def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
         began = time.perf_counter()
         points, scan, origins = self._prepared(points, scan, origins)
-        carving = self._pool.submit(self.rays.carve, points, scan, origins, self._limits)
+        pieces = deque(range(0, len(points), PIECE))
+
+        def carve(rays: MissMap) -> None:
+            while pieces:
+                with suppress(IndexError):  # the other thread took the last one
+                    part = slice(start := pieces.popleft(), start + PIECE)
+                    rays.carve(points[part], scan[part], origins, self._limits)
+
+        carving = self._pool.submit(carve, self.rays)
         self.surfels.insert(points, scan, origins, self._limits)
+        carve(self._more_rays)
         carving.result()
         self.seconds += time.perf_counter() - began
 

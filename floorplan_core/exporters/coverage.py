@@ -34,6 +34,14 @@ def rounded(polygon: Any, transform: Callable[[Float], Float], decimals: int) ->
     return _rebuild(polygon, lambda ring: _without_repeats(np.round(transform(ring), decimals)))
 
 
+def all_rounded(polygons: Sequence[Any], transform: Callable[[Float], Float], decimals: int) -> list[Any]:
+    """:func:`rounded` for many polygons in one pass."""
+    moved = shapely.transform(
+        np.array(polygons, dtype=object), lambda points: np.round(transform(points), decimals)
+    )
+    return list(shapely.remove_repeated_points(moved, 0.0))
+
+
 def _merge_coordinates(polygons: list[Any]) -> Any:
     """Snap each coordinate to the smallest one of its group; groups are at most ``MERGE`` wide."""
     coordinates = shapely.get_coordinates(polygons)

@@ -15,7 +15,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorplan_core.exporters.coverage import matched, rounded
+from floorplan_core.exporters.coverage import all_rounded, matched, rounded
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, LayoutSegment, Region, RegionSide, loa_band
 
 Float = NDArray[np.float64]
@@ -166,10 +166,10 @@ def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
     """Predicted space, clipped to just inside the regions, so that no rounding lets it out."""
     inside = shapely.union_all(shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre"))
     clipped = _only_polygons(shapely.intersection(plan.speculated(), inside))
-    moved = [rounded(p, plan.to_world, DECIMALS) for p in clipped if p.area > INSET]
-    valid = [q for p in moved for q in _only_polygons(p if p.is_valid else shapely.make_valid(p))]
+    moved = all_rounded([p for p in clipped if p.area > INSET], plan.to_world, DECIMALS)
+    valid = [q for p in moved for q in ([p] if p.is_valid else _only_polygons(shapely.make_valid(p)))]
     properties = {"kind": "speculated", "area_m2": _metres(sum(p.area for p in clipped))}
-    coordinates = [_rings(p) for p in shapely.orient_polygons(valid)]
+    coordinates = [_rings(p) for p in valid]
     return _feature("speculated", {"type": "MultiPolygon", "coordinates": coordinates}, properties)
 
 
@@ -197,7 +197,8 @@ def _polygon(plan: FloorPlan, polygon: Any) -> Json:
 def _rings(polygon: Any) -> list[list[list[float]]]:
     """GeoJSON rings of a polygon that is already rounded: counter-clockwise shell, clockwise holes."""
     oriented = shapely.orient_polygons(polygon)
-    return [_clean(np.array(r.coords), DECIMALS).tolist() for r in (oriented.exterior, *oriented.interiors)]
+    rings = shapely.get_rings(oriented)
+    return [_clean(shapely.get_coordinates(r), DECIMALS).tolist() for r in rings]
 
 
 def _line(plan: FloorPlan, ends: Float) -> Json:

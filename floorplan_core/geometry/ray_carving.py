@@ -82,6 +82,17 @@ class MissMap:
             if start < len(points):
                 self._grow()
 
+    def take(self, other: MissMap) -> None:
+        """Add the counts of another map of the same voxels to this one; the other is empty then."""
+        while self._used + other._used > len(self._pool):
+            self._grow()
+        self._used = _merge(
+            self._keys, self._ids, self._pool, self._used, other._keys, other._ids, other._pool
+        )
+        other._pool[: other._used] = 0
+        other._keys[:] = EMPTY
+        other._used = 0
+
     def column_bits(
         self,
         rotation: Float,
@@ -121,6 +132,7 @@ def _find(key, keys):  # type: ignore[no-untyped-def]
 def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used, start):  # type: ignore[no-untyped-def]
     near2, far2, inverse = nearest * nearest, farthest * farthest, 1.0 / size
     edge = (BIAS - BLOCK) * 1.0
+    counts = pool.reshape(-1)
     for i in range(start, len(points)):
         if scan[i] < 0:
             continue
@@ -148,22 +160,23 @@ def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used
             return i, used
         longest = max(abs(dx), abs(dy), abs(dz), 1e-9)
         sx, sy, sz = int(dx / longest * ONE), int(dy / longest * ONE), int(dz / longest * ONE)
-        bx, by, bz, block = 1 << 40, 0, 0, 0
+        inx, iny, inz, block = ~x, y, z, 0  # a place in the block that the ray is in; in none at first
         for _ in range(int(longest) + 1):
-            if x >> BLOCK_SHIFT != bx or y >> BLOCK_SHIFT != by or z >> BLOCK_SHIFT != bz:
-                bx, by, bz = x >> BLOCK_SHIFT, y >> BLOCK_SHIFT, z >> BLOCK_SHIFT
-                key = pack(bx, by, bz)
+            if ((x ^ inx) | (y ^ iny) | (z ^ inz)) >> BLOCK_SHIFT != 0:
+                inx, iny, inz = x, y, z
+                key = pack(x >> BLOCK_SHIFT, y >> BLOCK_SHIFT, z >> BLOCK_SHIFT)
                 slot = _find(key, keys)
                 if keys[slot] == EMPTY:
                     keys[slot], ids[slot] = key, used
                     used += 1
-                block = ids[slot]
+                block = ids[slot] * _VOLUME
             vx, vy, vz = x >> SHIFT, y >> SHIFT, z >> SHIFT
-            if vx == ex and vy == ey and vz == ez:
+            if ((vx ^ ex) | (vy ^ ey) | (vz ^ ez)) == 0:
                 break
-            at = ((vx & 15) << 8) | ((vy & 15) << 4) | (vz & 15)
-            if pool[block, at] < _MOST:
-                pool[block, at] += np.uint16(1)
+            # an unsigned index: numba need not ask whether it counts from the end
+            at = np.uint64(block | ((vx & 15) << 8) | ((vy & 15) << 4) | (vz & 15))
+            if counts[at] < _MOST:
+                counts[at] += np.uint16(1)
             x += sx
             y += sy
             z += sz
@@ -188,6 +201,21 @@ def _mark(points, rays, size, keys, ids, pool, used, start):  # type: ignore[no-
         at = ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)
         pool[ids[slot], at] = min(int(_MOST), int(pool[ids[slot], at]) + rays)
     return len(points), used
+
+
+@njit(cache=True, nogil=True)
+def _merge(keys, ids, pool, used, other_keys, other_ids, other_pool):  # type: ignore[no-untyped-def]
+    for i in range(len(other_keys)):
+        if other_keys[i] == EMPTY:
+            continue
+        slot = _find(other_keys[i], keys)
+        if keys[slot] == EMPTY:
+            keys[slot], ids[slot] = other_keys[i], used
+            used += 1
+        to, there = ids[slot], other_ids[i]
+        for k in range(_VOLUME):
+            pool[to, k] = min(np.uint32(_MOST), np.uint32(pool[to, k]) + np.uint32(other_pool[there, k]))
+    return used
 
 
 @njit(cache=True, nogil=True)

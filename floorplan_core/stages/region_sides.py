@@ -164,14 +164,14 @@ def _residual(seen: Float, at: float) -> float | None:
     The points of each surface are taken as normally distributed about its own offset, with its own residual.
     """
     length, away = seen[:, 2] - seen[:, 1], np.abs(seen[:, 0] - at)
-    if length.sum() <= 0:
+    total = float(length.sum())
+    if total <= 0:
         return None
     scale = np.maximum(seen[:, 3] / _TWO_SIGMA, 1e-6) * math.sqrt(2.0)
     low, high = 0.0, float((away + 2 * seen[:, 3]).max()) + 1e-3
+    surfaces = list(zip(length.tolist(), away.tolist(), scale.tolist(), strict=True))  # two or three
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        inside = [math.erf(z) for z in ((middle - away) / scale).tolist()]
-        inside = [a + math.erf(z) for a, z in zip(inside, ((middle + away) / scale).tolist(), strict=True)]
-        share = 0.5 * float(np.dot(inside, length)) / float(length.sum())
-        low, high = (middle, high) if share < _MOST else (low, middle)
+        inside = sum(n * (math.erf((middle - a) / s) + math.erf((middle + a) / s)) for n, a, s in surfaces)
+        low, high = (middle, high) if 0.5 * inside / total < _MOST else (low, middle)
     return high

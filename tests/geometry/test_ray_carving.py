@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplan_core.geometry.ray_carving import ONE, SHIFT, MissMap
+from floorplan_core.geometry.voxel_keys import EMPTY
 
 SIZE = 0.1
 LIMITS = (0.05, 30.0)
@@ -142,3 +143,28 @@ def test_marked_voxels_are_free_without_rays():
     held = misses._pool[: misses.blocks]
     assert np.count_nonzero(held) == len(keys)
     assert held.sum() == 3 * len(points)
+
+
+def _counts(misses: MissMap) -> dict[int, bytes]:
+    """The counts of every block by its key."""
+    used = np.flatnonzero(misses._keys != EMPTY)
+    return {int(misses._keys[s]): misses._pool[misses._ids[s]].tobytes() for s in used}
+
+
+def test_two_maps_taken_together_are_the_map_of_all_rays():
+    rng = np.random.default_rng(5)
+    origins, points = rng.uniform(-20, 20, (2, 3000, 3))
+    whole, first, second = (_carved(origins[part], points[part]) for part in np.s_[:, ::3, 1::3])
+    first.take(second)
+    first.take(_carved(origins[2::3], points[2::3]))
+    assert _counts(first) == _counts(whole)
+    assert second.blocks == 0 and not second._pool.any()
+    second.take(whole)  # a map that was emptied can be used again
+    assert _counts(second) == _counts(first)
+
+
+def test_counts_of_two_maps_saturate():
+    origins, points = np.zeros((40_000, 3)), np.tile([[2.0, 0.0, 0.0]], (40_000, 1))
+    misses = _carved(origins, points)
+    misses.take(_carved(origins, points))
+    assert misses._pool.max() == 65535
