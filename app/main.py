@@ -107,9 +107,12 @@ def _settings(unattended: bool):  # type: ignore[no-untyped-def]
 
     if not unattended:
         return QSettings()
+    import atexit
+    import shutil
     import tempfile
 
     folder = tempfile.mkdtemp(prefix="floorcast-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return QSettings(str(Path(folder) / "settings.ini"), QSettings.Format.IniFormat)
 
 

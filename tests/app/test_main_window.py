@@ -104,7 +104,7 @@ def test_escape_cancels_what_runs_and_the_last_plan_stays(script: ScriptedApplic
 
 def test_a_run_is_replayed(script: ScriptedApplication) -> None:
     workbench, whole = script.workbench, script.workbench.plan
-    script.run("plan.replay", every=100.0)
+    script.run("plan.replay", every=50.0)
     timeline = workbench.timeline
     assert len(timeline) >= 3 and timeline[-1].plan is not None
     assert [s.time for s in timeline] == sorted(s.time for s in timeline)
