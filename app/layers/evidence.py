@@ -71,7 +71,7 @@ def evidence_layer(plan: FloorPlan, item: Item | None, face: int = 0) -> Evidenc
         plane.id,
         plane.facing,
         plane.offset,
-        profile.start + (np.arange(len(profile.low)) + 0.5) * profile.step,
+        np.asarray(profile.start + (np.arange(len(profile.low)) + 0.5) * profile.step, dtype=np.float64),
         profile.step,
         signal.histogram,
         signal.gradient,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,7 @@ from floorcast_app.selection import Item
 from floorcast_app.view_state import Look
 
 Float = NDArray[np.float64]
+Finder = Callable[[float, float, float, Look, bool], Item | None]
 ORDER = ("door", "plane", "region")  # what wins where several lie under the pointer
 
 
@@ -47,14 +50,9 @@ class HitIndex:
         :param reach: metres that a line may be away.
         :param dotted: planes are hit all along, not only where they were seen.
         """
-        for kind in ORDER:
-            if kind in kinds:
-                item = {"door": self._door, "plane": self._plane, "region": self._region}[kind](
-                    x, y, reach, look, dotted
-                )
-                if item is not None:
-                    return item
-        return None
+        finders: dict[str, Finder] = {"door": self._door, "plane": self._plane, "region": self._region}
+        found = (finders[kind](x, y, reach, look, dotted) for kind in ORDER if kind in kinds)
+        return next((item for item in found if item is not None), None)
 
     def _door(self, x: float, y: float, reach: float, look: Look, dotted: bool) -> Item | None:
         if "doors" not in look.layers or not len(self._boxes):
@@ -82,7 +80,7 @@ class HitIndex:
         if "regions" not in look.layers or not len(self._polygons):
             return None
         inside = np.flatnonzero(shapely.contains_xy(self._polygons, x, y))
-        return next((i for i in (self._regions[k] for k in inside) if _shown(i, look)), None)
+        return next((self._regions[k] for k in inside.tolist() if _shown(self._regions[k], look)), None)
 
 
 def segment_distance(lines: Float, x: float, y: float) -> Float:
@@ -99,7 +97,7 @@ def _shown(item: Item, look: Look) -> bool:
 
 def _nearest(away: Float, reach: float, items: list[Item], look: Look) -> Item | None:
     """The nearest shown item within ``reach``; ties to the first in the plan."""
-    for k in np.argsort(away, kind="stable"):
+    for k in np.argsort(away, kind="stable").tolist():
         if away[k] > reach:
             return None
         if _shown(items[k], look):

@@ -62,7 +62,7 @@ def _candidates(free: Any, polygon: Any) -> Float:
     inside = spots[shapely.contains_xy(free, spots)]
     home = shapely.get_coordinates(polygon.centroid)[0]
     near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
-    return inside[near]
+    return np.asarray(inside[near], dtype=np.float64)
 
 
 def _ticks(values: Float) -> Float:

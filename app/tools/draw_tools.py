@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from floorcast_app import format
 from floorcast_app.layers.snap_index import Snap
 from floorcast_app.tools.gestures import SNAP, At, Mark, Point, Tool, Typed, distance, straight, towards
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
 
 SHORTEST = 0.05  # metres: two clicks nearer than this are one
 
@@ -16,8 +21,8 @@ class TwoPointTool(Tool):
     lights: tuple[str, ...] = ()
     role = "wall"
 
-    def __init__(self, workbench: object) -> None:
-        super().__init__(workbench)  # type: ignore[arg-type]
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
         self._first: Point | None = None
         self._here: Snap | None = None  # where the next click would go
         self._typed = Typed()

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from floorcast_app.layers.snap_index import Snap
 from floorcast_app.tools.draw_tools import TwoPointTool
 from floorcast_app.tools.gestures import SNAP, At, Mark, Point
 from floorcast_app.tools.select_tool import SelectTool
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
 
 
 class GripTool(SelectTool):
@@ -15,7 +20,7 @@ class GripTool(SelectTool):
     kind = ""  # of the items that are selected rather than drawn over
     drawing: type[TwoPointTool] = TwoPointTool
 
-    def __init__(self, workbench: object) -> None:
+    def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._drawing = self.drawing(workbench)
 
@@ -67,7 +72,7 @@ class DoorLine(TwoPointTool):
     role = "door"
     nowhere = "Click on a wall: a door needs one."
 
-    def __init__(self, workbench: object) -> None:
+    def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._axis = 0
 

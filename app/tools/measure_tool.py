@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from typing import TYPE_CHECKING
 
 from floorcast_app import format
 from floorcast_app.layers.snap_index import Snap
@@ -11,6 +12,9 @@ from floorcast_app.tools.draw_tools import TwoPointTool
 from floorcast_app.tools.gestures import SNAP, At, Mark, Point, distance, straight
 from floorcast_app.view_state import Look
 from floorplan_core.model import Region
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
 
 FEWEST_CORNERS = 3
 AREA_KEY = "a"
@@ -24,7 +28,7 @@ class MeasureTool(TwoPointTool):
     hint = "Click two points; walls, corners and jambs snap, Shift measures square. A measures an area."
     area_hint = "Click corners and press Enter, or double-click a region. A measures distances again."
 
-    def __init__(self, workbench: object) -> None:
+    def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._wall: int | None = None  # axis of the wall that the first click lies on
         self._corners: list[Point] | None = None  # of an area; None: distances are measured

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from floorcast_app.layers.item_shapes import anchor
 from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import At, Mark, Tool
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
 
 
 class MergeTool(Tool):
@@ -15,8 +20,8 @@ class MergeTool(Tool):
     lights = ("region",)
     hint = "Click a region, then the region that it is one with."
 
-    def __init__(self, workbench: object) -> None:
-        super().__init__(workbench)  # type: ignore[arg-type]
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
         self._first: Item | None = None
         self._here: At | None = None
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from floorcast_app import format
 from floorcast_app.layers.snap_index import snap_offset
 from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import GRIP, SNAP, At, Mark, Point, Tool, Typed, distance
 from floorplan_core.model import Door, LayoutPlane
+
+if TYPE_CHECKING:
+    from floorcast_app.workbench import Workbench
 
 SHORTEST_DOOR = 0.3  # metres: an end cannot be dragged nearer to the other
 
@@ -38,8 +42,8 @@ class SelectTool(Tool):
     name = "select"
     hint = ""
 
-    def __init__(self, workbench: object) -> None:
-        super().__init__(workbench)  # type: ignore[arg-type]
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
         self._held: PlaneDrag | DoorDrag | None = None
         self._moving = False
         self._typed = Typed()
