@@ -82,6 +82,7 @@ class Workbench:
         self.project: Path | None = None  # where the document is saved; None: nowhere yet
         # World metres of what corrections and checks are relative to; None: of the survey's local frame
         self.origin: tuple[float, float] | None = None
+        self.names: tuple[tuple[str, str, str], ...] = ()  # of the regions, as they were saved
         self.plan: FloorPlan | None = None
         self.session: PlanningSession | None = None
         self.points = PointStore()
@@ -156,7 +157,7 @@ class Workbench:
         config = state.config.model_copy(
             update={"input": state.config.input.model_copy(update={"unit": unit, "up": up})}
         )
-        self.project = self.origin = None
+        self.project, self.origin, self.names = None, None, ()
         self.document.reset(replace(state, config=config), f"Open {Path(path).name}", saved=False)
 
     def read_and_plan(self) -> None:
@@ -166,10 +167,12 @@ class Workbench:
             return
         self.points = PointStore()
         store = self.points
+        names = self.session.names if self.session is not None else self.names
 
         def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
             session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
             self._post_session(session)
+            session.begin_with_names(names)
             session.read(observer, lambda chunk: store.add(chunk))
             return session, session.plan(state.config, state.corrections, observer, origin=origin)
 
@@ -236,7 +239,7 @@ class Workbench:
         :param path: where the document is saved; None: nowhere yet.
         """
         self._close_survey()
-        self.project, self.origin = path, loaded.origin
+        self.project, self.origin, self.names = path, loaded.origin, loaded.names
         state = DocumentState(
             survey=None if loaded.survey is None else SurveyRef(*loaded.survey),
             config=loaded.config,
@@ -273,6 +276,7 @@ class Workbench:
             checks=tuple(asdict(c) for c in state.checks),
             view=look_to_dict(self.view.look),
             origin=self.origin or (self.session.origin if self.session else None),
+            names=self.session.names if self.session else self.names,
         )
 
     def relocate(self, path: Path) -> None:
@@ -286,7 +290,7 @@ class Workbench:
     def close_survey(self) -> None:
         """An empty document."""
         self._close_survey()
-        self.project = self.origin = None
+        self.project, self.origin, self.names = None, None, ()
         self.document.reset(DocumentState(), "New")
 
     def remember(self, path: Path) -> None:

@@ -65,6 +65,7 @@ class Project:
     view: Json = field(default_factory=dict)  # how things are looked at; any JSON values
     # World metres of what corrections and checks are relative to; None: of the survey's own local frame
     origin: Point | None = None
+    names: tuple[tuple[str, str, str], ...] = ()  # of regions: see PlanningSession.names
     missing: tuple[Path, ...] = ()  # inputs that are not where they were
     notes: tuple[str, ...] = ()  # sentences: what is not as it was saved
 
@@ -169,6 +170,7 @@ def _tree(project: Project, folder: Path, take_digest: bool) -> Json:
         "program": __version__,
         "survey": None if project.survey is None else _survey_json(project.survey, folder, take_digest),
         "origin": None if project.origin is None else list(project.origin),
+        "names": [list(n) for n in project.names],
         "config": project.config.model_dump(mode="json"),
         "corrections": to_json(project.corrections),
         "checks": [dict(c) for c in project.checks],
@@ -226,6 +228,7 @@ def _project(tree: Json, folder: Path) -> Project:
         _checks(tree.get("checks", [])),
         view,
         None if origin is None else point(origin),
+        _names(tree.get("names", [])),
         missing,
         (*notes, *unknown),
     )
@@ -297,3 +300,11 @@ def _check(data: Any) -> Json:
         "measured": None if measured is None else number(measured),
         "note": text(data.get("note", "")),
     }
+
+
+def _names(data: Any) -> tuple[tuple[str, str, str], ...]:
+    if not isinstance(data, list) or not all(isinstance(n, list) and len(n) == 3 for n in data):
+        raise ValueError("its names of regions are damaged")
+    if not all(isinstance(outline, str) for *_, outline in data):
+        raise ValueError("the outline of a region is damaged")
+    return tuple((text(ident), text(name), outline) for ident, name, outline in data)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from floorplan_core.config import Config
 from floorplan_core.errors import UsageError
-from floorplan_core.model import GridMap, PointChunk, Reconstruction
+from floorplan_core.model import GridMap, PointChunk, Reconstruction, Region
 from floorplan_core.model.corrections import Correction, Point
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import shifted
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from floorplan_core.pipeline import FloorPlanner
 
 Keep = Callable[[PointChunk], None]
+Names = tuple[tuple[str, str, str], ...]  # id, name and outline (WKB, hexadecimal) of regions
 
 
 class PlanningSession:
@@ -112,6 +113,29 @@ class PlanningSession:
         planner = self._read_planner()
         planner.config = config
         return planner.storeys()
+
+    @property
+    def names(self) -> Names:
+        """Id, name and outline (WKB, hexadecimal) of the regions: for :meth:`begin_with_names` of another."""
+        import shapely
+
+        return tuple((r.id, r.name, str(shapely.to_wkb(r.polygon, hex=True))) for r in self._names.last)
+
+    def begin_with_names(self, names: Names) -> None:
+        """Regions go on with the names that they had elsewhere; outlines that make no sense are left out."""
+        import shapely
+
+        outlines = shapely.from_wkb([outline for *_, outline in names], on_invalid="ignore")
+        polygons = [
+            p if p is not None and p.geom_type == "Polygon" and p.is_valid else None for p in outlines
+        ]
+        known = [
+            Region(ident, name, polygon, "", 0, 0, 0.0)
+            for (ident, name, _), polygon in zip(names, polygons, strict=True)
+            if polygon is not None
+        ]
+        if known and len({r.id for r in known}) == len({r.name for r in known}) == len(known):
+            self._names.begin_with(known)
 
     @property
     def origin(self) -> Point:

@@ -58,6 +58,7 @@ def _project(survey: Path) -> Project:
         (CHECK,),
         {"look": {"span": 12.5}, "layers": ["points"]},
         (3.5e5, 5.6e6),
+        (("r1", "1", "00ff"),),
     )
 
 
@@ -164,6 +165,7 @@ BAD = {
     "a setting out of bounds": lambda t: t["config"]["doors"].update(bin=-1),
     "settings that are a list": lambda t: t.update(config=[1]),
     "a view that is a list": lambda t: t.update(view=[1]),
+    "names that are no texts": lambda t: t.update(names=[["r1", 1, "00"]]),
     "an origin of three numbers": lambda t: t.update(origin=[1, 2, 3]),
     "a check without a start": lambda t: t["checks"][0].pop("start"),
     "a path with a zero byte": lambda t: t["survey"].update(absolute="/a\0b"),

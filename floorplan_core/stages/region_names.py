@@ -120,14 +120,18 @@ class NamesOfSession:
     def __init__(self) -> None:
         self._first: dict[int, tuple[Region, ...]] = {}  # by storey: every name, where it first appeared
         self._given: dict[tuple[int, bytes], tuple[tuple[str, str], ...]] = {}  # id and name of each region
+        self.last: tuple[Region, ...] = ()  # of storey 0, as they were named last
+
+    def begin_with(self, regions: Sequence[Region]) -> None:
+        """Go on with the names of an earlier session: those of these regions."""
+        self.last = self._first[0] = tuple(regions)
+        self._given[0, _shapes(regions)] = tuple((r.id, r.name) for r in regions)
 
     def __call__(
         self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int
     ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
         """The names given to these shapes before, or else by the overlap with where names first appeared."""
-        import shapely
-
-        shapes = b"".join(shapely.to_wkb(np.array([r.polygon for r in regions], dtype=object)))
+        shapes = _shapes(regions)
         names = self._given.get((storey, shapes))
         if names is None:
             first = self._first.get(storey, ())
@@ -137,4 +141,11 @@ class NamesOfSession:
             names = self._given[storey, shapes] = tuple((r.id, r.name) for r in named)
         new_id = {r.id: ident for r, (ident, _) in zip(regions, names, strict=True)}
         regions = tuple(replace(r, id=i, name=n) for r, (i, n) in zip(regions, names, strict=True))
+        self.last = regions if storey == 0 else self.last
         return regions, tuple(replace(d, connects=tuple(new_id[c] for c in d.connects)) for d in doors)
+
+
+def _shapes(regions: Sequence[Region]) -> bytes:
+    import shapely
+
+    return b"".join(shapely.to_wkb(np.array([r.polygon for r in regions], dtype=object)))
