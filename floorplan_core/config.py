@@ -36,6 +36,9 @@ class InputConfig(Section):
     mirrored: bool = setting(
         False, "", "The file's axes are left-handed; its plan would come out mirrored otherwise."
     )
+    topic: str = setting(
+        "", "", "Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans."
+    )
     max_range: float = setting(30.0, "m", "Points farther from their sensor are dropped.", gt=0.5, le=500)
     min_range: float = setting(0.05, "m", "Points nearer to their sensor are dropped.", ge=0, le=5)
 

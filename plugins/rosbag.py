@@ -78,7 +78,7 @@ class RosbagReader:
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
         """Open it; :class:`InputError` where it is damaged, or lists its topics where none can be used."""
         given = None if options.trajectory is None else read_trajectory(options.trajectory, observer)
-        run = survey(path, given, observer)
+        run = survey(path, given, observer, options.input.topic)
         scans = len(run.times)
         source = PointSource(
             path,
@@ -97,10 +97,10 @@ class RosbagReader:
         return assemble(source, replace(options, trajectory=None), observer)
 
 
-def survey(path: Path, given: Trajectory | None, observer: Observer) -> Run:
-    """One pass: topics, times of the scans, transforms and odometry."""
+def survey(path: Path, given: Trajectory | None, observer: Observer, wanted: str = "") -> Run:
+    """One pass: topics, times of the scans, transforms and odometry; ``wanted``: the topic, if asked for."""
     with opened(path) as reader:
-        topic, msgtype = choose_topic(path.name, reader)
+        topic, msgtype = choose_topic(path.name, reader, wanted)
         clouds = [c for c in reader.connections if c.topic == topic]
         movers = [c for c in reader.connections if c.msgtype in (*TRANSFORMS, *TRACKS)]
         tree, tracks = FrameTree(), {}
@@ -125,8 +125,19 @@ def survey(path: Path, given: Trajectory | None, observer: Observer) -> Run:
     return replace(run, types=types, topics=topics)
 
 
-def choose_topic(name: str, reader: Any) -> tuple[str, str]:
-    """The topic with most clouds, else with most planar scans; ties go to the first by name."""
+def choose_topic(name: str, reader: Any, asked: str = "") -> tuple[str, str]:
+    """The topic that was asked for, else that with most clouds, else with most planar scans.
+
+    Ties go to the first by name. :class:`InputError` lists the topics where none fits.
+    """
+    if asked:
+        for c in reader.connections:
+            if c.topic == asked and c.msgtype in (ros.CLOUD, ros.SCAN):
+                return asked, c.msgtype
+        raise InputError(
+            f"{name} holds no PointCloud2 and no LaserScan messages on the topic {asked!r} (input.topic); "
+            f"its topics: {_listed(reader)}."
+        )
     for wanted in (ros.CLOUD, ros.SCAN):
         counts: dict[str, int] = {}
         for c in reader.connections:

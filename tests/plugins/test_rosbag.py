@@ -236,6 +236,19 @@ def test_topics_are_listed(tmp_path):
     assert "its topics: /odom (Odometry)" in refusal(write_recording(tmp_path, "bag", build))
 
 
+def test_another_topic_can_be_chosen(tmp_path):
+    def build(m):
+        yield from with_transforms(m)
+        yield "/second", START, m.cloud(local(parts()[0], poses()[0]), START)
+
+    path = write_recording(tmp_path, "mcap", build)
+    survey = opened(path, topic="/second", unit="m", up="z")
+    np.testing.assert_allclose(whole(survey)[0], parts()[0], atol=1e-3)
+    assert any("/second" in text for text in survey.assumptions)
+    assert "/points: 12 PointCloud2" in survey.topics
+    assert "on the topic '/tf'" in refusal(path, topic="/tf", unit="m", up="z")
+
+
 @pytest.mark.parametrize("form", ["bag", "mcap", "db3"])
 def test_damage(tmp_path, form):
     def build(m):
