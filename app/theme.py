@@ -54,8 +54,9 @@ def apply_theme(app: QApplication, theme: str) -> None:
     """Give the application the look ``theme`` and tell the listeners of :data:`changed`."""
     global _name
     _name = theme if theme in THEMES else "light"
-    app.setStyle("Fusion")
-    app.setFont(font())
+    if not app.styleSheet():  # once: each of these makes every widget look anew
+        app.setStyle("Fusion")
+        app.setFont(font())
     app.setPalette(_palette(colours()))
     app.setStyleSheet(stylesheet(_name))
     changed.emit(_name)

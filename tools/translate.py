@@ -144,9 +144,8 @@ def _is_words(text: str) -> bool:
     plain = re.sub(r"\{\d+\}", "", text)
     if "*." in plain or re.fullmatch(r"[a-z0-9_.\-/]*|[\w.]+:\w+", plain):
         return False
-    return not re.fullmatch(
-        r"((Ctrl|Shift|Alt)\+)*\S{1,4}( \| \S+)*|(Ctrl|Shift|Alt)\+|Home|Escape|Delete|[\W\d]*", plain
-    )
+    keys = r"((Ctrl|Shift|Alt)\+)+\S*( \| \S+)*|\S|F\d+|Home|Escape|Delete|Del|[\W\d]*"
+    return not re.fullmatch(keys, plain)
 
 
 def _actions() -> Iterator[str]:

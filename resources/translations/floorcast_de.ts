@@ -197,7 +197,7 @@
   </message>
   <message>
    <source>Auto</source>
-   <translation>Automatisch</translation>
+   <translation>Auto</translation>
   </message>
   <message>
    <source>Automatic</source>
@@ -964,6 +964,10 @@
    <translation>Wird behalten, was das Programm auch findet</translation>
   </message>
   <message>
+   <source>Kind</source>
+   <translation>Art</translation>
+  </message>
+  <message>
    <source>LOA</source>
    <translation>LOA</translation>
   </message>
@@ -1296,6 +1300,10 @@
    <translation>N</translation>
   </message>
   <message>
+   <source>Name</source>
+   <translation>Name</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -1310,6 +1318,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>New</source>
+   <translation>Neu</translation>
   </message>
   <message>
    <source>No plan yet.</source>
@@ -2192,6 +2204,10 @@
    <translation>Stützung</translation>
   </message>
   <message>
+   <source>Sure</source>
+   <translation>Sicher</translation>
+  </message>
+  <message>
    <source>Surface</source>
    <translation>Oberfläche</translation>
   </message>
@@ -2530,6 +2546,14 @@
   <message>
    <source>Top</source>
    <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Topic</source>
+   <translation>Topic</translation>
+  </message>
+  <message>
+   <source>Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans.</source>
+   <translation>Topic einer ROS-Aufzeichnung mit den Scans; leer: das mit den meisten Punktwolken, sonst Scans.</translation>
   </message>
   <message>
    <source>Trajectory</source>
@@ -3300,7 +3324,7 @@
   </message>
   <message>
    <source>Auto</source>
-   <translation>Automatisch</translation>
+   <translation>Auto</translation>
   </message>
   <message>
    <source>Automatic</source>
@@ -4067,6 +4091,10 @@
    <translation>Wird behalten, was das Programm auch findet</translation>
   </message>
   <message>
+   <source>Kind</source>
+   <translation>Art</translation>
+  </message>
+  <message>
    <source>LOA</source>
    <translation>LOA</translation>
   </message>
@@ -4399,6 +4427,10 @@
    <translation>N</translation>
   </message>
   <message>
+   <source>Name</source>
+   <translation>Name</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -4413,6 +4445,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>New</source>
+   <translation>Neu</translation>
   </message>
   <message>
    <source>No plan yet.</source>
@@ -5295,6 +5331,10 @@
    <translation>Stützung</translation>
   </message>
   <message>
+   <source>Sure</source>
+   <translation>Sicher</translation>
+  </message>
+  <message>
    <source>Surface</source>
    <translation>Oberfläche</translation>
   </message>
@@ -5633,6 +5673,14 @@
   <message>
    <source>Top</source>
    <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Topic</source>
+   <translation>Topic</translation>
+  </message>
+  <message>
+   <source>Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans.</source>
+   <translation>Topic einer ROS-Aufzeichnung mit den Scans; leer: das mit den meisten Punktwolken, sonst Scans.</translation>
   </message>
   <message>
    <source>Trajectory</source>
@@ -6403,7 +6451,7 @@
   </message>
   <message>
    <source>Auto</source>
-   <translation>Automatisch</translation>
+   <translation>Auto</translation>
   </message>
   <message>
    <source>Automatic</source>
@@ -7170,6 +7218,10 @@
    <translation>Wird behalten, was das Programm auch findet</translation>
   </message>
   <message>
+   <source>Kind</source>
+   <translation>Art</translation>
+  </message>
+  <message>
    <source>LOA</source>
    <translation>LOA</translation>
   </message>
@@ -7502,6 +7554,10 @@
    <translation>N</translation>
   </message>
   <message>
+   <source>Name</source>
+   <translation>Name</translation>
+  </message>
+  <message>
    <source>Name of the region classifier (see `floorcast plugins`).</source>
    <translation>Name des Klassifikators der Regionen (siehe `floorcast plugins`).</translation>
   </message>
@@ -7516,6 +7572,10 @@
   <message>
    <source>Narrower openings are no doors (paper: 0.8 m).</source>
    <translation>Schmalere Öffnungen sind keine Türen (Artikel: 0,8 m).</translation>
+  </message>
+  <message>
+   <source>New</source>
+   <translation>Neu</translation>
   </message>
   <message>
    <source>No plan yet.</source>
@@ -8398,6 +8458,10 @@
    <translation>Stützung</translation>
   </message>
   <message>
+   <source>Sure</source>
+   <translation>Sicher</translation>
+  </message>
+  <message>
    <source>Surface</source>
    <translation>Oberfläche</translation>
   </message>
@@ -8736,6 +8800,14 @@
   <message>
    <source>Top</source>
    <translation>Oben</translation>
+  </message>
+  <message>
+   <source>Topic</source>
+   <translation>Topic</translation>
+  </message>
+  <message>
+   <source>Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans.</source>
+   <translation>Topic einer ROS-Aufzeichnung mit den Scans; leer: das mit den meisten Punktwolken, sonst Scans.</translation>
   </message>
   <message>
    <source>Trajectory</source>
