@@ -19,11 +19,13 @@ from floorplan_core.model import ManhattanFrame, Reconstruction, Trajectory
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
+from floorplan_core.stages.manhattan_frame import other_direction
 from floorplan_core.stages.storeys import find_storeys
 from floorplan_core.survey_map import SurveyMap
 
 Float = NDArray[np.float64]
 
+LEAST_SHARE = 0.08  # of the walls: a wing at another angle has more, clutter has less
 ENDS = (0.001, 0.999)  # quantiles between which the building lies: the rest may be ghosts
 
 
@@ -48,6 +50,7 @@ class SurveyInfo:
     topics: tuple[str, ...]
     frame: ManhattanFrame | None
     no_frame: str  # why there is none
+    other: tuple[float, float]  # radians from the frame and share of walls of the strongest other direction
     storeys: tuple[Storey, ...]  # none where the survey is planar
     floor_shift: float  # metres to add to the heights of storeys to have them in the world frame
     planar: bool  # a scan in one plane: it has no heights
@@ -73,6 +76,7 @@ class SurveyInfo:
             "topics": list(self.topics),
             "manhattan": None if self.frame is None else _frame_facts(self.frame),
             "no_manhattan": self.no_frame,
+            "other_direction": _other_facts(self.other),
             "storeys": [_storey_facts(s, self.floor_shift) for s in self.storeys],
             "assumptions": list(self.assumptions),
             "warnings": list(self.warnings),
@@ -104,6 +108,7 @@ def describe(
         topics=survey.topics,
         frame=frame,
         no_frame=why,
+        other=_other(seen, frame, config),
         storeys=() if seen.planar else storeys,
         floor_shift=float(local.shift[2] + seen.own.centre[2]),
         planar=seen.planar,
@@ -143,6 +148,21 @@ def _directions(seen: SurveyMap, config: Config) -> tuple[ManhattanFrame | None,
         return None, str(error), ()
     own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
     return frame, "", find_storeys(seen.surfels.surfels(), own, config.storeys)
+
+
+def _other(seen: SurveyMap, frame: ManhattanFrame | None, config: Config) -> tuple[float, float]:
+    if frame is None:
+        return 0.0, 0.0
+    own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
+    return other_direction(seen.sample(), own, config.frame)
+
+
+def _other_facts(other: tuple[float, float]) -> dict[str, float] | None:
+    """None where so few walls share it that it is clutter."""
+    angle, share = other
+    if share < LEAST_SHARE:
+        return None
+    return {"from_frame_deg": round(float(np.degrees(angle)), 2), "share": round(share, 4)}
 
 
 def _size(seen: SurveyMap, frame: ManhattanFrame | None) -> Float:

@@ -155,9 +155,18 @@ def _manhattan(found: SurveyInfo) -> str:
     if found.frame is None:
         return f"no: {found.no_frame}"
     facts = found.as_dict()["manhattan"]
+    other = found.as_dict()["other_direction"]
+    wing = (
+        ""
+        if other is None
+        else (
+            f"\n{other['share']:.0%} stand {abs(other['from_frame_deg']):.0f} degrees from it: "
+            "another wing, perhaps; its rooms are drawn in the one frame"
+        )
+    )
     return (
         f"{facts['support']:.0%} of {facts['wall_area_m2']:.0f} m2 of wall within 5 degrees of the frame "
-        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees)"
+        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}"
     )
 
 

@@ -37,6 +37,7 @@ _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
 _LEVEL_REACHES = (0.3, 0.15, 0.08)  # m around the strongest level: first for a rough up, then for a better
+_ASKEW = math.radians(10)  # from the frame: walls at more are no noise of those that fit
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 
@@ -85,6 +86,23 @@ def seen_from(frame: ManhattanFrame, turn: Float) -> ManhattanFrame:
     c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
     rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ rotation
     return replace(frame, rotation=rotation, yaw=yaw)
+
+
+def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig) -> tuple[float, float]:
+    """The strongest direction of walls that do not fit ``frame``: radians from it, and share of all walls.
+
+    A wing at another angle shows here; ``surfels`` are those that ``frame`` belongs to.
+    """
+    normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    n = normals.normal @ frame.rotation.T
+    vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
+    angle, weight = np.arctan2(n[vertical, 1], n[vertical, 0]), normals.weight[vertical]
+    askew = np.abs(_wrap(angle)) > _ASKEW
+    if not weight[askew].sum() > 0:
+        return 0.0, 0.0
+    peak = _strongest_direction(angle[askew], weight[askew])
+    near = askew & (np.abs(_wrap(angle - peak)) < math.radians(config.tolerance_deg))
+    return peak, float(weight[near].sum() / weight.sum())
 
 
 def _no_walls(area: float, voxels: int, height: float) -> str:

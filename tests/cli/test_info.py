@@ -33,6 +33,7 @@ def test_extent_scans_path_frame_and_storey(survey, capsys):
     assert found["trajectory"] == {"poses": 4, "length_m": pytest.approx(WIDTH + WALL), "seconds": 30.0}
     assert found["manhattan"]["support"] > 0.95
     assert abs(found["manhattan"]["yaw_deg"]) < 0.1
+    assert found["other_direction"] is None
     (storey,) = found["storeys"]
     assert storey["floor_m"] == pytest.approx(0.0, abs=0.01)
     assert storey["ceiling_m"] == pytest.approx(HEIGHT, abs=0.01)
@@ -68,6 +69,20 @@ def test_a_cloud_without_walls_is_described_too(tmp_path, capsys):
     found = facts(capsys, tmp_path / "floor.npy", "--set", "input.unit=m")
     assert found["manhattan"] is None
     assert "No walls" in found["no_manhattan"]
+
+
+def test_a_wing_at_another_angle_is_reported(tmp_path, capsys):
+    survey = write_survey(tmp_path / "straight", spacing=0.06)
+    raw = (survey / "points.ply").read_bytes()
+    record = np.dtype([("xyz", "<f4", 3), ("scan_id", "<i4")])
+    points = np.frombuffer(raw[raw.index(b"end_header\n") + 11 :], dtype=record)["xyz"]
+    c = np.cos(np.radians(30))
+    wing = points[::2] @ np.array([[c, 0.5, 0], [-0.5, c, 0], [0, 0, 1]]) + [20, 0, 0]
+    np.save(tmp_path / "both.npy", np.concatenate([points, wing]).astype("f4"))
+    found = facts(capsys, tmp_path / "both.npy", "--set", "input.unit=m", "--set", "input.up=z")
+    assert abs(found["other_direction"]["from_frame_deg"]) == pytest.approx(30, abs=0.5)
+    assert 0.2 < found["other_direction"]["share"] < 0.5
+    assert found["manhattan"]["support"] < 0.8
 
 
 def test_a_grid_map_is_described(tmp_path, capsys):
