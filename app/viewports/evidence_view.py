@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
-from PySide6.QtGui import QImage, QMouseEvent, QPainter, QPaintEvent, QPolygonF, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QImage, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QToolButton, QWidget
 
 from floorcast_app import format, theme
@@ -15,6 +14,13 @@ from floorcast_app.layers.evidence import EvidenceLayer, evidence_layer
 from floorcast_app.selection import Item
 from floorcast_app.theme import Colours
 from floorcast_app.translation import tr
+from floorcast_app.viewports.evidence_tracks import (
+    paint_gradient,
+    paint_histogram,
+    paint_label,
+    paint_response,
+    track_x,
+)
 from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_camera import STEP
 from floorcast_app.viewports.plan_frame import (
@@ -37,7 +43,6 @@ AROUND = 3.0  # metres shown beside a selected door
 NEAREST = 0.5  # metres: closer in there is nothing to see
 BESIDE = 0.6  # metres from the plane at which the pointer of a plan pane is still shown
 CLICK = 4.0  # pixels that a click may move
-GRADIENT = 1.1  # the most of either sign that the track shows
 
 
 class EvidenceView(QWidget):
@@ -148,13 +153,13 @@ class EvidenceView(QWidget):
         tracks = self._tracks(area)
         self._paint_doors(painter, tracks, evidence, c)
         self._paint_axis(painter, tracks, evidence, c)
-        for track, paint in zip(tracks, (_histogram, _gradient, _response), strict=True):
+        for track, paint in zip(tracks, (paint_histogram, paint_gradient, paint_response), strict=True):
             painter.save()
             painter.setClipRect(track)
             paint(painter, track, evidence, self._shown, c)
             painter.restore()
         for track, text in zip(tracks, (tr("Histogram"), tr("Gradient"), tr("Filter")), strict=True):
-            _label(painter, track, text, c)
+            paint_label(painter, track, text, c)
         if self._cursor is not None:
             self._paint_cursor(painter, tracks, evidence, c)
 
@@ -185,7 +190,7 @@ class EvidenceView(QWidget):
         """Bands over all tracks; the selected and the hovered one outlined."""
         selection = self.workbench.selection
         for door in evidence.doors:
-            left, right = (_x(tracks[0], self._shown, v) for v in (door.start, door.end))
+            left, right = (track_x(tracks[0], self._shown, v) for v in (door.start, door.end))
             band = QRectF(left, tracks[0].top(), right - left, tracks[-1].bottom() - tracks[0].top())
             band = band.intersected(QRectF(LEFT, 0, tracks[0].width(), tracks[-1].bottom()))
             if band.width() <= 0:
@@ -212,7 +217,7 @@ class EvidenceView(QWidget):
         step = max(round_length((high - low) / unit * TICKS / width) * 2, 0.1) * unit
         bottom = tracks[-1].bottom()
         for k in range(math.ceil(low / step), math.floor(high / step) + 1):
-            x = _x(tracks[0], self._shown, k * step)
+            x = track_x(tracks[0], self._shown, k * step)
             painter.setPen(pen(c.line, 1.0))
             for track in tracks:
                 painter.drawLine(QPointF(x, track.top()), QPointF(x, track.bottom()))
@@ -226,7 +231,7 @@ class EvidenceView(QWidget):
     ) -> None:
         """Where the pointer is, with the values there."""
         assert self._cursor is not None
-        x = _x(tracks[0], self._shown, self._cursor)
+        x = track_x(tracks[0], self._shown, self._cursor)
         if not tracks[0].left() <= x <= tracks[0].right():
             return
         painter.setPen(pen(c.accent, 1.2))
@@ -325,85 +330,9 @@ class EvidenceView(QWidget):
 
     def pixel_of(self, along: float) -> float:
         """Horizontal pixel of a place along the plane, metres."""
-        return _x(self._tracks(QRectF(self.rect()))[0], self._shown, along)
+        return track_x(self._tracks(QRectF(self.rect()))[0], self._shown, along)
 
     def _along(self, position: QPointF) -> float:
         track = self._tracks(QRectF(self.rect()))[0]
         low, high = self._shown
         return low + (position.x() - track.left()) / track.width() * (high - low)
-
-
-def _x(track: QRectF, shown: tuple[float, float], along: float) -> float:
-    low, high = shown
-    return track.left() + (along - low) / (high - low) * track.width()
-
-
-def _curve(
-    track: QRectF,
-    evidence: EvidenceLayer,
-    shown: tuple[float, float],
-    values: NDArray[np.float64],
-    low: float,
-    high: float,
-) -> QPolygonF:
-    """The values of the bins in view as a line of pixels."""
-    first = max(int(np.searchsorted(evidence.at, shown[0])) - 1, 0)
-    last = min(int(np.searchsorted(evidence.at, shown[1])) + 2, len(values))
-    x = track.left() + (evidence.at[first:last] - shown[0]) / (shown[1] - shown[0]) * track.width()
-    y = (
-        track.bottom()
-        - (np.clip(values[first:last], low, high) - low) / (high - low) * (track.height() - 4)
-        - 2
-    )
-    return QPolygonF([QPointF(a, b) for a, b in zip(x.tolist(), y.tolist(), strict=True)])
-
-
-def _filled(painter: QPainter, line: QPolygonF, base: float, name: str, alpha: float) -> None:
-    """A line with the ground between it and ``base``."""
-    if line.isEmpty():
-        return
-    area = QPolygonF([QPointF(line.first().x(), base), *line, QPointF(line.last().x(), base)])
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour(name, alpha))
-    painter.drawPolygon(area)
-    painter.setPen(pen(name, 1.4))
-    painter.drawPolyline(line)
-
-
-def _histogram(
-    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
-) -> None:
-    """Wall seen below 2 m, filled; above 2 m (lintels) as a thin line."""
-    tone = plane_colour(c, evidence.facing.axis)
-    _filled(painter, _curve(track, evidence, shown, evidence.histogram, 0, 1), track.bottom(), tone, 0.28)
-    painter.setPen(pen(c.muted, 1.0, 0.9))
-    painter.drawPolyline(_curve(track, evidence, shown, evidence.lintel, 0, 1))
-
-
-def _gradient(
-    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
-) -> None:
-    """Falls where an opening begins, rises where it ends."""
-    middle = track.center().y()
-    painter.setPen(pen(c.line_strong, 1.0))
-    painter.drawLine(QPointF(track.left(), middle), QPointF(track.right(), middle))
-    painter.setPen(pen(c.text, 1.3))
-    painter.drawPolyline(_curve(track, evidence, shown, evidence.gradient, -GRADIENT, GRADIENT))
-
-
-def _response(
-    painter: QPainter, track: QRectF, evidence: EvidenceLayer, shown: tuple[float, float], c: Colours
-) -> None:
-    """The best answer of the matched filter, and the threshold."""
-    _filled(painter, _curve(track, evidence, shown, evidence.response, 0, 1), track.bottom(), c.accent, 0.25)
-    y = track.bottom() - evidence.threshold * (track.height() - 4) - 2
-    painter.setPen(pen(c.warning, 1.0, 1.0, (5.0, 4.0)))
-    painter.drawLine(QPointF(track.left(), y), QPointF(track.right(), y))
-
-
-def _label(painter: QPainter, track: QRectF, text: str, c: Colours) -> None:
-    """The frame of a track and its name, reading upwards."""
-    painter.setPen(pen(c.line_strong, 1.0))
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.drawRect(track)
-    draw_text(painter, text, (track.left() - 14, track.center().y()), SMALL, colour(c.muted), 400, True)
