@@ -26,7 +26,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app import theme
-from floorcast_app.layers.hit_index import segment_distance
 from floorcast_app.layers.item_shapes import item_shape
 from floorcast_app.layers.partial import partial_layer
 from floorcast_app.layers.source import source_of
@@ -39,10 +38,10 @@ from floorcast_app.view_state import Look
 from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
+from floorcast_app.viewports.plan_checks import check_at, check_ends, paint_checks
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
 from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
-    paint_check,
     paint_compass,
     paint_cross,
     paint_hint,
@@ -216,7 +215,7 @@ class PlanCanvas(QWidget):
 
     def _bounds(self, item: Item) -> tuple[float, float, float, float] | None:
         if item.kind == "check":
-            ends = self._check_ends(item.id)
+            ends = check_ends(self.workbench, item.id)
             xs, ys = zip(*ends, strict=True) if ends else ((), ())
             return (min(xs), min(ys), max(xs), max(ys)) if ends else None
         plan = self.workbench.plan
@@ -277,7 +276,7 @@ class PlanCanvas(QWidget):
                 paint_item(painter, frame, source, item, True)
         if interactive and selection.hovered is not None and selection.hovered.kind in self.lit:
             paint_item(painter, frame, source, selection.hovered, False)
-        self._paint_checks(painter, frame)
+        paint_checks(painter, frame, self.workbench)
         if self.pins:
             corrected = tuple(Item(kind, id) for kind, id in getattr(source.plan, "corrected", ()))
             paint_pins(painter, frame, source, corrected)
@@ -286,19 +285,6 @@ class PlanCanvas(QWidget):
         if interactive:
             self._paint_tool(painter, frame)
 
-    def _paint_checks(self, painter: QPainter, frame: Frame) -> None:
-        if "dimensions" not in frame.look.layers:
-            return
-        c = frame.colours
-        for check in self.workbench.state.checks:
-            ends = self._check_ends(check.id)
-            item = Item("check", check.id)
-            if ends is None or not frame.shows("check", check.id):
-                continue
-            lit = {True: c.selection, False: c.accent}[item in self.workbench.selection.items]
-            tone = c.hover if item == self.workbench.selection.hovered else lit
-            paint_check(painter, frame, ends, math.dist(*ends), tone)
-
     def _paint_tool(self, painter: QPainter, frame: Frame) -> None:
         toolbox = self.workbench.toolbox
         paint_marks(painter, frame, toolbox.marks())
@@ -306,13 +292,6 @@ class PlanCanvas(QWidget):
             paint_cross(painter, frame, self._pointer)
         if toolbox.tool.hint and (self._inside or self.hasFocus()):
             paint_hint(painter, frame, tr(toolbox.tool.hint))
-
-    def _check_ends(self, id: str) -> tuple[Point, Point] | None:
-        """The ends of a measurement in plan coordinates."""
-        check = self.workbench.find(Item("check", id))
-        if check is None or self.workbench.plan is None:
-            return None
-        return self.workbench.to_plan(check.start), self.workbench.to_plan(check.end)
 
     # ---- what lies where --------------------------------------------------------------------------------
 
@@ -323,25 +302,12 @@ class PlanCanvas(QWidget):
         camera = self.camera
         x, y = camera.to_plan(position.x(), position.y())
         reach = HIT / camera.scale
-        check = self._check_at(x, y, reach)
+        check = check_at(self.workbench, x, y, reach)
         if check is not None and "check" in kinds:
             return check
         wanted = tuple(kind for kind in self.hits if kind in kinds)
         dotted = self.dotted and self.workbench.tool == "select"
         return self._drawing.source.hits.at(x, y, reach, self._look(), wanted, dotted)
-
-    def _check_at(self, x: float, y: float, reach: float) -> Item | None:
-        import numpy as np
-
-        if "dimensions" not in self._look().layers:
-            return None
-        for check in self.workbench.state.checks:
-            ends = self._check_ends(check.id)
-            if ends is not None:
-                line = np.array([[*ends[0], *ends[1]]])
-                if segment_distance(line, x, y)[0] <= reach:
-                    return Item("check", check.id)
-        return None
 
     def _at(self, event: QMouseEvent) -> At:
         camera, keys = self.camera, event.modifiers()

@@ -1,0 +1,49 @@
+"""The rows of the ground-truth table in the plan panes: where they lie, how they are painted and hit."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtGui import QPainter
+
+from floorcast_app.layers.hit_index import segment_distance
+from floorcast_app.selection import Item
+from floorcast_app.tools.gestures import Point
+from floorcast_app.viewports.plan_frame import Frame
+from floorcast_app.viewports.plan_overlay import paint_check
+from floorcast_app.workbench import Workbench
+
+LAYER = "dimensions"  # of the look, that shows them
+
+
+def check_ends(workbench: Workbench, id: str) -> tuple[Point, Point] | None:
+    """The ends of a measurement in plan coordinates."""
+    check = workbench.find(Item("check", id))
+    if check is None or workbench.plan is None:
+        return None
+    return workbench.to_plan(check.start), workbench.to_plan(check.end)
+
+
+def check_at(workbench: Workbench, x: float, y: float, reach: float) -> Item | None:
+    """The measurement within ``reach`` metres of a place."""
+    if LAYER not in workbench.view.look.layers:
+        return None
+    for check in workbench.state.checks:
+        ends = check_ends(workbench, check.id)
+        if ends is not None and segment_distance(np.array([[*ends[0], *ends[1]]]), x, y)[0] <= reach:
+            return Item("check", check.id)
+    return None
+
+
+def paint_checks(painter: QPainter, frame: Frame, workbench: Workbench) -> None:
+    """All measurements, selected and hovered ones lit up."""
+    if LAYER not in frame.look.layers:
+        return
+    c, selection = frame.colours, workbench.selection
+    for check in workbench.state.checks:
+        ends, item = check_ends(workbench, check.id), Item("check", check.id)
+        if ends is None or not frame.shows("check", check.id):
+            continue
+        tone = c.selection if item in selection.items else c.accent
+        paint_check(painter, frame, ends, math.dist(*ends), c.hover if item == selection.hovered else tone)
