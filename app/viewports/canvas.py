@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt, QTimer
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -42,6 +42,7 @@ from floorcast_app.viewports.plan_checks import check_at, check_ends, paint_chec
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
 from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
+    draw_shifted,
     paint_compass,
     paint_cross,
     paint_hint,
@@ -238,20 +239,13 @@ class PlanCanvas(QWidget):
             self._paint_ground(painter, frame)
             painter.end()
         painter = QPainter(self)
-        if self._base_camera in (None, frame.camera):
+        if self._base_camera is None or self._base_camera == frame.camera:
             painter.drawPixmap(0, 0, self._base)
         else:
-            self._draw_shifted(painter, frame)
+            painter.fillRect(self.rect(), self.ground(frame))
+            draw_shifted(painter, frame, self._base, self._base_camera)
         self._paint_over(painter, frame, interactive=True)
         painter.end()
-
-    def _draw_shifted(self, painter: QPainter, frame: Frame) -> None:
-        """The last picture where the camera has it now."""
-        assert self._base is not None and self._base_camera is not None
-        painter.fillRect(self.rect(), self.ground(frame))
-        old, new = self._base_camera, frame.camera
-        (x0, y0), (x1, y1) = (new.point(*old.to_plan(*p)) for p in ((0, 0), (old.width, old.height)))
-        painter.drawPixmap(QRectF(x0, y0, x1 - x0, y1 - y0), self._base, QRectF(self._base.rect()))
 
     def _paint_ground(self, painter: QPainter, frame: Frame) -> None:
         painter.fillRect(

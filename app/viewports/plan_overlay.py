@@ -6,13 +6,14 @@ import math
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QPainter, QPolygonF
+from PySide6.QtGui import QPainter, QPixmap, QPolygonF
 
 from floorcast_app import format
 from floorcast_app.layers.item_shapes import ItemShape, anchor, item_shape
 from floorcast_app.layers.source import PlanSource
 from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import Mark, Point
+from floorcast_app.viewports.plan_camera import Camera
 from floorcast_app.viewports.plan_frame import (
     SMALL,
     Frame,
@@ -58,6 +59,13 @@ def paint_item(painter: QPainter, frame: Frame, source: PlanSource, item: Item, 
 def _fill(painter: QPainter, shape: ItemShape, name: str, alpha: float) -> None:
     if shape.areas:
         painter.fillPath(path_of(shape.areas), colour(name, alpha))
+
+
+def draw_shifted(painter: QPainter, frame: Frame, picture: QPixmap, taken: Camera) -> None:
+    """A picture that another camera took, where the frame's camera has it."""
+    corners = ((0.0, 0.0), (taken.width, taken.height))
+    (x0, y0), (x1, y1) = (frame.camera.point(*taken.to_plan(*c)) for c in corners)
+    painter.drawPixmap(QRectF(x0, y0, x1 - x0, y1 - y0), picture, QRectF(picture.rect()))
 
 
 def paint_check(painter: QPainter, frame: Frame, ends: tuple[Point, Point], metres: float, tone: str) -> None:
