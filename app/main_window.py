@@ -44,7 +44,9 @@ MENU_TITLES = {
     "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
     "correct": "Correct", "measure": "Measure", "help": "Help",
 }  # fmt: skip
-NOT_IN_MENUS = ("view.pane", "plan.set", "plan.preset", "view.look", "measure.set", "edit.history")
+NOT_IN_MENUS = (  # they need arguments: for the palette's settings, for panes and for scripts
+    "view.pane", "view.look", "edit.select", "edit.history", "plan.set", "plan.preset", "measure.set",
+)  # fmt: skip
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
