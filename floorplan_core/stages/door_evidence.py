@@ -31,6 +31,8 @@ _FLANK = 0.5  # m beside an aperture in which wall is looked for
 _STANDS = 0.2  # of the height below 2 m, seen: wall
 _STEP = 2.0  # m between two poses, the longest step that is still a path
 _NO_LINTELS = 0.9  # taken for the lintel where the survey shows none at all: the share over usual doors
+_NO_PASSAGE = 0.05  # of the width: less is no straight passage at all
+_OUTWARD = 0.3  # most that an opening can earn behind which neither passage nor wall was seen
 _DECIMALS = 3
 
 # Log odds of a whole measure, and of none. Fitted on 439 apertures, penalty 0.002 on the squared weights.
@@ -89,11 +91,36 @@ class DoorMeasures:
         """Probability of a door or opening; ``lintels``: the survey shows any, so that none here counts."""
         seen = self if lintels else replace(self, lintel=_NO_LINTELS)
         odds = _BIAS + sum(weight * getattr(seen, name) for name, weight in _WEIGHTS.items())
-        return round(1.0 / (1.0 + math.exp(-odds)), _DECIMALS)
+        likely = 1.0 / (1.0 + math.exp(-odds))
+        return round(likely if self._leads_on() else min(likely, _OUTWARD), _DECIMALS)
+
+    def _leads_on(self) -> bool:
+        """False for glass to the outside: rays pass it, but nothing was seen to lie on its other side."""
+        return self.passage > _NO_PASSAGE or self.path > 0 or self.both > 0
+
+
+@dataclass(frozen=True)
+class WallView:
+    """What lies in and behind a wall, in the bins of its plane's profile: all (B,), 0 to 1."""
+
+    open: Float  # free within its thickness, at the heights of a body
+    foot: Float  # the same near the floor
+    beyond: Float  # free just behind it
+    sill: Float  # surface seen near the floor
+
+
+def view_wall(plane: LayoutPlane, evidence: Evidence) -> WallView:
+    """Free space and low surfaces along ``plane``, once for all of its apertures."""
+    return WallView(
+        open=_free_share(plane, evidence, _WITHIN, _BODY),
+        foot=_free_share(plane, evidence, _WITHIN, _FOOT),
+        beyond=_free_share(plane, evidence, _BEYOND, _BODY),
+        sill=_seen_low(plane, evidence),
+    )
 
 
 def measure(
-    plane: LayoutPlane, start: float, end: float, response: float, evidence: Evidence
+    plane: LayoutPlane, start: float, end: float, response: float, view: WallView, evidence: Evidence
 ) -> DoorMeasures:
     """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``)."""
     profile = plane.profile
@@ -102,10 +129,10 @@ def measure(
     inner = slice(max(a + 1, 0), max(b - 1, a + 2))
     flanks = sorted(_standing(low, profile.step) for low in _beside(profile, a, b))
     return DoorMeasures(
-        open=_mean(free_share(plane, evidence)[inner]),
-        foot=_mean(free_share(plane, evidence, body=_FOOT)[inner]),
-        beyond=_mean(free_share(plane, evidence, _BEYOND)[inner]),
-        sill=_mean(_seen_low(plane, evidence)[inner]),
+        open=_mean(view.open[inner]),
+        foot=_mean(view.foot[inner]),
+        beyond=_mean(view.beyond[inner]),
+        sill=_mean(view.sill[inner]),
         passage=_mean(profile.through[inner] > 0.4),
         path=float(_path_crosses(plane, start, end, evidence)),
         lintel=_mean(profile.high[inner] > 0),
@@ -130,9 +157,7 @@ def _standing(low: Float, step: float) -> float:
     return min(1.0, float((low > _STANDS).sum()) * step / _FLANK)
 
 
-def free_share(
-    plane: LayoutPlane, evidence: Evidence, depth: float = _WITHIN, body: tuple[float, float] = _BODY
-) -> Float:
+def _free_share(plane: LayoutPlane, evidence: Evidence, depth: float, body: tuple[float, float]) -> Float:
     """(bins,) 0 to 1: share of the heights ``body`` that are free ``depth`` metres behind the wall's face."""
     axis = plane.facing.axis
     free = evidence.free if axis == 0 else evidence.free.T

@@ -18,7 +18,7 @@ from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
 from floorplan_core.stages.door_edges import refine_edges
-from floorplan_core.stages.door_evidence import DoorMeasures, free_share, measure
+from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from floorplan_core.stages.shut_doors import find_shut_doors
 
 
@@ -51,10 +51,12 @@ def find_candidates(
     for plane in planes:
         assert plane.profile is not None
         meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
-        free = free_share(plane, evidence)
-        for start, end, response in apertures(plane.profile, free, plane.walls, meets, config, lintels):
+        view = view_wall(plane, evidence)
+        for start, end, response in apertures(plane.profile, view.open, plane.walls, meets, config, lintels):
             if not has_parapet(plane.profile, start, end):
-                found.append(_candidate(plane, start, end, measure(plane, start, end, response, evidence)))
+                found.append(
+                    _candidate(plane, start, end, measure(plane, start, end, response, view, evidence))
+                )
     return found
 
 

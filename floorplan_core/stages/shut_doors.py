@@ -23,7 +23,7 @@ from floorplan_core.stages.door_edges import points_in_boxes
 Float = NDArray[np.float64]
 
 _LEAF = (0.3, 1.8)  # m above the floor, where a leaf and no lintel is
-_FOOT = (0.2, 0.4)  # m above the floor, where a leaf stands back and the sill of a window does not
+_FOOT = (0.1, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
 _LINTEL = (2.2, 2.5)  # m above the floor: above a door
 _DEPTH = (0.055, 0.17)  # m behind the face at which a leaf hangs
 _SKIN = 0.03  # m about the face: the noise of the wall itself

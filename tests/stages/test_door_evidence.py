@@ -57,6 +57,12 @@ def test_two_faces_keep_the_better_of_each():
     assert both.confidence(True) >= max(HIDDEN.confidence(True), SLANTED.confidence(True))
 
 
+def test_glass_to_the_outside_stays_below_the_threshold():
+    outward = replace(DOOR, passage=0.0, both=0.0)
+    assert outward.confidence(True) < DoorsConfig().min_confidence
+    assert replace(outward, both=1.0).confidence(True) > 0.9
+
+
 def test_words_name_what_was_found():
     assert set(DOOR.words()) == {"open", "passage", "lintel", "wall on both sides", "both faces"}
     assert "open" not in HIDDEN.words()
