@@ -28,6 +28,8 @@ _LOW_FROM = 0.2  # m, skirting and floor
 _PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
 _RECESSED = 0.8  # share of a plane that must lie behind another wall to be its recess
 _PATCHY = 0.7  # m between patches of floor, where no ray told free space
+_SEEN, _STRONG = 0.12, 0.35  # of the height below 2 m: something was seen, a wall was seen
+_TAIL = (0.25, 0.7)  # m at the end of a wall in which something was seen here and there
 _HOLE = 0.35  # m, too narrow to pass
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
@@ -223,13 +225,14 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
         else:
             joined.append([int(a), int(b)])
     firm = solid | (lintel & ((profile.through < 0.3) | (profile.high >= doors.lintel_depth)))
+    firm &= ~_crumbs(profile, joined)
     kept = [t for r in joined if _stands(profile, solid, r) and (t := _trim(firm, r))]
     return profile.start + np.array(kept, dtype=np.float64).reshape(-1, 2) * profile.step
 
 
 def is_solid(profile: WallProfile) -> NDArray[np.bool_]:
     """Where wall was seen below 2 m: a few returns in a place that is mostly seen through are no wall."""
-    return (profile.low >= 0.12) & ~((profile.through > 0.5) & (profile.low < 0.35))
+    return (profile.low >= _SEEN) & ~((profile.through > 0.5) & (profile.low < _STRONG))
 
 
 def _close(mask: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
@@ -249,6 +252,20 @@ def _trim(firm: NDArray[np.bool_], run: list[int]) -> list[int] | None:
     """A run without the lintels at its ends that no wall carries."""
     inside = np.flatnonzero(firm[run[0] : run[1]])
     return [run[0] + int(inside[0]), run[0] + int(inside[-1]) + 1] if len(inside) else None
+
+
+def _crumbs(profile: WallProfile, runs: list[list[int]]) -> NDArray[np.bool_]:
+    """(B,) the ends of runs where little was seen here and there: things beside a wall that ends before."""
+    strong = (profile.low >= _STRONG) | (profile.high > 2 * LEVEL - 1e-6)
+    crumbs = np.zeros(len(profile.low), dtype=bool)
+    for a, b in runs:
+        inside = np.flatnonzero(strong[a:b])
+        if len(inside):
+            for tail in (slice(a, a + int(inside[0])), slice(a + int(inside[-1]) + 1, b)):
+                seen = profile.low[tail] >= _SEEN
+                length = len(seen) * profile.step
+                crumbs[tail] = _TAIL[0] <= length <= _TAIL[1] and float(seen.mean()) < 0.5
+    return crumbs
 
 
 def _stands(profile: WallProfile, solid: NDArray[np.bool_], run: list[int]) -> bool:

@@ -14,6 +14,7 @@ from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, Regio
 
 Float = NDArray[np.float64]
 
+_DEEPEST = 0.35  # m behind a side, where the back of its recesses lies
 _THICKEST = 0.45  # m between two faces that are one wall
 _MOST, _TWO_SIGMA = 0.95, 1.96  # share of the points that a residual holds; in standard deviations
 _HALVINGS = 16  # of an interval under a metre: to a few hundredths of a millimetre
@@ -35,6 +36,13 @@ class WallSurfaces:
             mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in refused]
             data = np.array([[s.offset, s.start, s.end, s.residual] for s in mine]).reshape(-1, 4)
             self._table[facing] = (data, [s.plane for s in mine])
+        recesses = {p.id for p in planes if p.recess and not p.by_hand}
+        self._panes = {
+            f: np.array(
+                [[s.offset, s.start, s.end] for s in segments if s.facing == f and s.plane in recesses]
+            ).reshape(-1, 3)
+            for f in Facing
+        }
         self.thickness = typical_thickness(planes)
 
     @staticmethod
@@ -53,6 +61,14 @@ class WallSurfaces:
         near = (np.abs(data[:, 0] - a[across]) < self.REACH) & (end > start)
         k = np.flatnonzero(near)
         return np.column_stack([data[k, 0], start[k], end[k], data[k, 3]]), [planes[i] for i in k]
+
+    def panes(self, a: Float, b: Float) -> list[tuple[float, float]]:
+        """Start and end of what was seen in the recesses of a side: the wall is there, just not its face."""
+        facing = self.facing(a, b)
+        offset, start, end = self._panes[facing].T
+        behind = (a[facing.axis] - offset) * facing.sign
+        near = (behind > -self.REACH) & (behind < _DEEPEST)
+        return [(float(s), float(e)) for s, e in zip(start[near], end[near], strict=True)]
 
     def target(self, a: Float, b: Float) -> float:
         """Where a side belongs: the median of the surfaces seen along it, by length; else where it is."""
@@ -141,7 +157,7 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
     low, high = sorted((float(a[1 - across]), float(b[1 - across])))
     seen, names = walls.along(a, b)
     placed = walls.placed(a, b)
-    spans = [(s, e) for _, s, e, _ in seen] + [(s, e) for s, e, _ in placed]
+    spans = [(s, e) for _, s, e, _ in seen] + [(s, e) for s, e, _ in placed] + walls.panes(a, b)
     for door in doors:
         if door.axis == across and abs(door.offset - a[across]) < door.thickness / 2 + walls.REACH:
             spans.append((door.start, door.end))

@@ -1,10 +1,11 @@
 """Rooms that were seen in part, completed: their guessed sides go out to where walls must be.
 
 What closes a glimpsed room are speculated planes at the edge of what was seen, so that it ends in steps short
-of its true walls. Three rules complete it, each only over space that nothing seen contradicts: a notch
+of its true walls. These rules complete it, each only over space that nothing seen contradicts: a notch
 between guessed sides is filled; a guessed side goes out to the next wall or region ahead, one wall's
 thickness before it where only the other face was seen; where there is none, to the next plane of the building
-that faces the same way. In and out: disjoint polygons. Cost: guessed sides times walls.
+that faces the same way; where nothing is known, to the usual width of the building's rooms. In and out:
+disjoint polygons. Cost: guessed sides times walls.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ _WALL = 0.3  # m of wall that counts
 _FACES = 0.3  # share of a side that a wall ahead must face to close it
 _KNOWN = 0.25  # share of the sides around a notch that may have been seen
 _OPEN = 0.05  # share of cells in the new part that may have been seen free and yet taken for no room
+_WHOLE, _ENOUGH = 0.8, 3  # share of the boundary that was seen of a whole room; rooms that tell what is usual
+_LONG = 2.0  # times the usual width: a longer side is no room's
 _EXACT = 1e-6  # m
 
 
@@ -80,6 +83,7 @@ class RoomGrower:
         min_support: float,
     ) -> None:
         self._walls, self._doors, self._grid = walls, doors, grid
+        self._usual = 0.0
         self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
         self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
         self._tree = shapely.STRtree(self._lines)
@@ -91,6 +95,7 @@ class RoomGrower:
     def grow_all(self, polygons: Sequence[Any]) -> list[Any]:
         """Each polygon completed, one after the other, beside the others as they are by then."""
         grown = list(polygons)
+        self._usual = self._usual_width(grown)
         boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
         for k, polygon in enumerate(grown):
             near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
@@ -122,7 +127,7 @@ class RoomGrower:
     def _push_sides(self, polygon: Any, others: Any) -> Any:
         """The polygon with each guessed side pushed out as far as it goes."""
         for front in list(self._frontiers(polygon)):
-            depth = self._depth(front, others)
+            depth = self._depth(front, polygon, others)
             if depth > _ON and self._unknown(front.ahead(depth), polygon, others):
                 polygon = polygon.union(front.ahead(depth))
         return _largest(polygon)
@@ -135,14 +140,38 @@ class RoomGrower:
             if side.speculated and not (np.abs(self._offsets[facing] - side.start[a]) < _ON).any():
                 yield Frontier(facing, side.start[a], *sorted((side.start[1 - a], side.end[1 - a])))
 
-    def _depth(self, front: Frontier, others: Any) -> float:
+    def _depth(self, front: Frontier, polygon: Any, others: Any) -> float:
         """Metres by which a side goes out; 0 where it stays."""
         reach = self._before_regions(front, others, self._before_walls(front))
         if reach.stop <= reach.limit:
             return reach.stop
         planes = (self._borrowed[front.facing] - front.at) * front.out
         planes = planes[(planes > _ON) & (planes <= min(reach.limit, _BORROWED))]
-        return float(planes.min()) if len(planes) else 0.0
+        if len(planes):
+            return float(planes.min())
+        return float(min(self._missing(front, polygon), reach.limit - self._walls.thickness))
+
+    def _missing(self, front: Frontier, polygon: Any) -> float:
+        """Metres that a room lacks to the usual width; half of it where its other side is guessed too."""
+        a = front.facing.axis
+        if front.high - front.low > _LONG * self._usual:
+            return 0.0  # the side of a corridor: rooms tell nothing about its width
+        lacks = max(self._usual - float(polygon.bounds[a + 2] - polygon.bounds[a]), 0.0)
+        both = any(f.facing == front.facing.opposite for f in self._frontiers(polygon))
+        known = np.concatenate([self._offsets[f] for f in Facing if f.axis == a])
+        to_last_wall = float(((known - front.at) * front.out).max(initial=0.0))
+        return min(lacks / 2 if both else lacks, to_last_wall)
+
+    def _usual_width(self, polygons: Sequence[Any]) -> float:
+        """The median width of the rooms that were seen whole; 0 where there are too few."""
+        widths = []
+        for polygon in polygons:
+            x0, y0, x1, y1 = polygon.bounds
+            sides = self._sides(shapely.orient_polygons(polygon))
+            seen = sum(s.length * s.observed for s in sides) / polygon.exterior.length
+            if seen > _WHOLE:
+                widths.append(min(x1 - x0, y1 - y0))
+        return float(np.median(widths)) if len(widths) >= _ENOUGH else 0.0
 
     def _before_walls(self, front: Frontier) -> Reach:
         """A wall that faces much of the side closes the room; any other keeps it from going on."""

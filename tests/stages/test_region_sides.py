@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 
-from floorplan_core.stages.region_sides import _residual
+from floorplan_core.model import Facing, LayoutPlane, LayoutSegment
+from floorplan_core.stages.region_sides import WallSurfaces, _residual, sides_of
 
 
 def surface(offset: float, length: float, residual: float) -> list[float]:
@@ -31,3 +33,26 @@ def test_sampled_points_agree() -> None:
 
 def test_nothing_seen_has_no_residual() -> None:
     assert _residual(np.zeros((0, 4)), 1.0) is None
+
+
+def test_a_pane_behind_a_side_counts_as_seen_but_does_not_move_it() -> None:
+    wall = LayoutPlane("p1", Facing.EAST, 0.0, ("s1",), 3.0)
+    pane = LayoutPlane("p2", Facing.EAST, -0.1, ("s2",), 1.0, recess=True)
+    seen = [
+        LayoutSegment("s1", Facing.EAST, 0.0, 3.0, 9.0, 0.2, 2.5, 3.0, 300, 0.01, 0.001, plane="p1"),
+        LayoutSegment("s2", Facing.EAST, -0.1, 0.2, 1.7, 0.9, 2.0, 1.0, 100, 0.01, 0.001, plane="p2"),
+    ]
+    corridor = shapely.orient_polygons(shapely.box(0, 0, 8, 2))
+    walls = WallSurfaces([wall, pane], seen)
+    (side,) = (s for s in sides_of(corridor, walls, ()) if s.start[0] == s.end[0] == 0.0)
+    assert side.observed == pytest.approx(1.5 / 2.0)
+    assert not side.speculated
+    assert walls.fit(corridor).bounds[0] == 0.0
+
+
+def test_a_surface_far_behind_a_side_is_another_wall() -> None:
+    far = LayoutPlane("p2", Facing.EAST, -0.6, ("s2",), 1.0, recess=True)
+    seen = LayoutSegment("s2", Facing.EAST, -0.6, 0.0, 2.0, 0.9, 2.0, 1.0, 100, 0.01, 0.001, plane="p2")
+    corridor = shapely.orient_polygons(shapely.box(0, 0, 8, 2))
+    sides = sides_of(corridor, WallSurfaces([far], [seen]), ())
+    assert all(s.observed == 0.0 for s in sides)

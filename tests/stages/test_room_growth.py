@@ -22,17 +22,21 @@ def wall(name: str, facing: Facing, offset: float, start: float, end: float) -> 
 
 
 def grow(seen: Any, planes: list[LayoutPlane], others: Any = NOTHING, outdoors: Any = None) -> Any:
+    return grower(planes, outdoors).grow(seen, others)
+
+
+def grower(planes: list[LayoutPlane], outdoors: Any = None) -> RoomGrower:
     segments = [
         LayoutSegment(s, p.facing, p.offset, *p.walls[0], 0.0, 2.5, 5.0, 100, 0.01, 0.001, plane=p.id)
         for p in planes
         for s in p.segments
     ]
-    states = np.zeros((100, 150), dtype=np.uint8)
+    states = np.zeros((100, 220), dtype=np.uint8)
     cells = OccupancyGrid(np.array([-1.0, -1.0]), 0.1, states, states == FREE, 1.2)
     if outdoors is not None:
         x0, y0, x1, y1 = (round((v + 1.0) / 0.1) for v in outdoors)
         states[y0:y1, x0:x1] = FREE
-    return RoomGrower(planes, WallSurfaces(planes, segments), (), cells, 0.4).grow(seen, others)
+    return RoomGrower(planes, WallSurfaces(planes, segments), (), cells, 0.4)
 
 
 # The room is 0 .. 5 by 0 .. 4; its west, south and north sides were seen.
@@ -102,3 +106,26 @@ def test_many_rooms_stay_disjoint() -> None:
     assert shapely.union_all(grown).area == pytest.approx(sum(r.area for r in grown))
     assert all(g.contains(r) for g, r in zip(grown, rooms, strict=True))
     assert sum(g.area for g in grown) > 1.5 * sum(r.area for r in rooms)
+
+
+def test_where_nothing_is_known_a_room_gets_the_usual_width() -> None:
+    """Three rooms 3 m wide were seen whole; of a fourth, at the corridor's end, a strip."""
+    planes = [wall(f"w{k}", Facing.EAST, 4.0 * k, 0.0, 4.0) for k in range(3)]
+    planes += [wall(f"e{k}", Facing.WEST, 4.0 * k + 3.0, 0.0, 4.0) for k in range(3)]
+    planes += [wall("south", Facing.NORTH, 0.0, 0.0, 14.0), wall("north", Facing.SOUTH, 4.0, 0.0, 14.0)]
+    planes += [wall("last", Facing.EAST, 16.5, 20.0, 24.0)]  # the building goes on
+    whole = [shapely.box(4 * k, 0, 4 * k + 3, 4) for k in range(3)]
+    *same, strip = grower(planes).grow_all([*whole, shapely.box(12, 0, 13.4, 4)])
+    assert all(a.equals(b) for a, b in zip(same, whole, strict=True))
+    x0, _, x1, _ = strip.bounds
+    assert x1 - x0 == pytest.approx(3.0, abs=0.3)
+    assert x0 >= 11.0 + THICK - 1e-6
+
+
+def test_no_room_is_widened_beyond_the_last_wall_of_the_building() -> None:
+    planes = [wall(f"w{k}", Facing.EAST, 4.0 * k, 0.0, 4.0) for k in range(4)]
+    planes += [wall(f"e{k}", Facing.WEST, 4.0 * k + 3.0, 0.0, 4.0) for k in range(3)]
+    planes += [wall("south", Facing.NORTH, 0.0, 0.0, 14.0), wall("north", Facing.SOUTH, 4.0, 0.0, 14.0)]
+    whole = [shapely.box(4 * k, 0, 4 * k + 3, 4) for k in range(3)]
+    *_, strip = grower(planes).grow_all([*whole, shapely.box(12, 0, 13.4, 4)])
+    assert strip.bounds[2] == pytest.approx(13.4)
