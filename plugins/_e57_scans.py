@@ -101,7 +101,7 @@ def list_scans(path: Path) -> list[E57Scan]:
 
 
 def read_scan(
-    path: Path, image: Any, scan: E57Scan, size: int = CHUNK_POINTS
+    path: Path, image: Any, scan: E57Scan, size: int = CHUNK_POINTS // 2
 ) -> Generator[RawChunk, None, None]:
     """Valid points in the scan's frame (float64) with what they carry, in buffers.
 

@@ -14,6 +14,7 @@ HEADER_BYTES = 375  # of LAS 1.4, the longest
 SIZES = {2: 227, 3: 235, 4: 375}  # bytes of the header by minor version
 RECORD_BYTES = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)  # least record by point format
 VLR_BYTES = 54
+MAX_CHUNK_BYTES = 64 << 20  # of one LAZ chunk, unpacked; writers take 50,000 points
 COMPRESSED = 0x80  # bit of the point format that LAZ sets
 MAX_FIELDS = 1 << 14  # bytes of one record that can be meant
 LINEAR_UNITS = {9001: "m", 9002: "ft", 9003: "us-ft"}  # EPSG codes
@@ -88,6 +89,38 @@ def _check_chunk_table(path: Path, head: LasHead, total: int) -> None:
         chunks = struct.unpack("<II", handle.read(8))[1]
     if chunks > table - head.offset or chunks > head.count:
         raise InputError(f"{path.name} is damaged: its LAZ chunk table announces {chunks:,} chunks.")
+
+
+def check_chunks(path: Path, head: LasHead, vlrs: Any) -> None:
+    """The compressed chunks, for which decoders make room unasked: none larger than the file, or absurd.
+
+    A decoder that finds no memory ends the process, and no exception tells of it.
+    """
+    import lazrs
+
+    data = [vlr.record_data for vlr in vlrs if type(vlr).__name__ == "LasZipVlr"]
+    if not data:
+        raise InputError(f"{path.name} is damaged: it is compressed and does not say how.")
+    layout = lazrs.LazVlr(data[0])
+    if layout.item_size() != head.record:
+        raise InputError(
+            f"{path.name} is damaged: its compressed points take {layout.item_size()} bytes each, "
+            f"its header says {head.record}."
+        )
+    most = MAX_CHUNK_BYTES // head.record
+    if not layout.uses_variable_size_chunks() and not 0 < layout.chunk_size() <= most:
+        raise InputError(f"{path.name} is damaged: its LAZ chunks hold {layout.chunk_size():,} points each.")
+    with path.open("rb") as handle:
+        handle.seek(head.offset)
+        chunks = lazrs.read_chunk_table(handle, layout)
+    held = path.stat().st_size - head.offset
+    if sum(size for _, size in chunks) > held or max((n for n, _ in chunks), default=0) > most:
+        raise InputError(f"{path.name} is damaged: the sizes in its LAZ chunk table exceed the file.")
+    if sum(n for n, _ in chunks) < head.count:
+        raise InputError(
+            f"{path.name} is truncated: its header promises {head.count:,} points, "
+            f"its {len(chunks):,} chunks hold fewer."
+        )
 
 
 def reference_system(vlrs: Any) -> tuple[str, str]:

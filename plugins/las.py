@@ -9,7 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from floorcast_plugins._las_header import LasHead, name_of_crs, read_las_head, reference_system
+from floorcast_plugins._las_header import (
+    LasHead,
+    check_chunks,
+    name_of_crs,
+    read_las_head,
+    reference_system,
+)
 from floorplan_core.api import (
     CHUNK_POINTS,
     SAMPLE_POINTS,
@@ -65,6 +71,8 @@ def las_source(path: Path, observer: Observer) -> PointSource:
     with _opened(path) as file, damaged(path.name, "LAS file"):
         names = tuple(file.header.point_format.dimension_names)
         crs, unit = reference_system(file.header.vlrs)
+        if head.compressed:
+            check_chunks(path, head, file.header.vlrs)
     if unit == "deg":
         raise InputError(
             f"The coordinates of {path.name} are degrees ({name_of_crs(crs)}); project them to metres first."

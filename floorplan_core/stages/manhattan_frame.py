@@ -213,7 +213,9 @@ def _sharpest_yaw(
     yaw = coarse
     fine = math.radians(config.yaw_step_deg)
     for span, pace in ((_SEARCH, 4 * fine), (8 * fine, fine), (2 * fine, fine / 10)):
-        trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
+        trial = np.asarray(
+            yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace, dtype=np.float64
+        )
         score = _sharpness(points, axis, trial, _OFFSET_BIN)
         yaw = float(trial[int(np.argmax(score))])
     return float(_wrap(_summit(trial, score)))
