@@ -186,10 +186,9 @@ def fuzz(kind: str) -> dict[str, Any]:
         path = made[kind](Path(folder))
         data = path.read_bytes()
         read(path, kind)
-        good = peak_memory(reset=True)
         for name, version in damaged(data, np.random.default_rng(5)):
             path.write_bytes(version)
-            began = time.perf_counter()
+            before, began = peak_memory(reset=True), time.perf_counter()
             signal.alarm(SLOW)
             try:
                 read(path, kind)
@@ -202,10 +201,9 @@ def fuzz(kind: str) -> dict[str, Any]:
             signal.alarm(0)
             result["versions"] += 1
             result["slowest_s"] = max(result["slowest_s"], round(time.perf_counter() - began, 2))
-            above = peak_memory() - good
+            above = peak_memory() - before
             if above > MEMORY:
-                result["bad"].append(f"{name}: {above >> 20} MB more than the good file")
-                good = peak_memory(reset=True)
+                result["bad"].append(f"{name}: {above >> 20} MB more than before")
             result["memory_mb"] = max(result["memory_mb"], round(above / 2**20, 1))
     return result
 
