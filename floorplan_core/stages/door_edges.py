@@ -41,6 +41,8 @@ def refine_edges(
 
 def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]:
     """For each of the (K, 4) boxes x0, y0, x1, y1 (metres) the rows of the surfels in it, in order."""
+    if not len(boxes):
+        return []
     ny, nx = evidence.shape
     owner, index = _collect(evidence.xyz, boxes, evidence.origin, evidence.cell, ny, nx)
     order = np.argsort(owner, kind="stable")
