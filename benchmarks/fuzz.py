@@ -3,8 +3,8 @@
 Each format is written by its own library, then cut at 50 places, with one to four bytes changed at 500 (half
 of them in its head), and with every number of its head made absurd (10^12, 2^31 - 1, 2^32 - 1). A process of
 its own reads all versions of one format as the command line does. Allowed is a survey, or an error of ours
-in one sentence. Counted are crashes, other exceptions, sentences that are none, readings of more than ``SLOW``
-seconds, and memory of more than ``MEMORY`` above that of the good file.
+in one sentence. Counted are crashes, other exceptions, sentences that are none, more than ``SLOW``
+seconds for one, and memory of more than ``MEMORY`` above that of the good file.
 """
 
 from __future__ import annotations
