@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from floorcast_plugins._mesh_files import check_mesh, load_triangles, mesh_kind
 
+from floorcast_plugins._mesh_files import check_mesh, load_triangles, mesh_kind
 from floorplan_core.api import (
     CHUNK_POINTS,
     SAMPLE_POINTS,

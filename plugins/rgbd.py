@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from floorcast_plugins._rgbd_layouts import Camera, Frame, RgbdFolder, kind_of, read_folder
 from numpy.typing import NDArray
 
+from floorcast_plugins._rgbd_layouts import Camera, Frame, RgbdFolder, kind_of, read_folder
 from floorplan_core.api import (
     EmptyInput,
     InputError,
