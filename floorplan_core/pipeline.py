@@ -47,6 +47,7 @@ from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pair
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.narrowings import find_openings
 from floorplan_core.stages.occupancy import slice_map
+from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
@@ -188,6 +189,7 @@ class FloorPlanner:
         )
         said += remarks
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
+        regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
         regions, doors = self.names(self._some(regions), doors, storey)
         regions, remarks = correct_names(regions, say.names)

@@ -234,3 +234,9 @@ def test_free_space_in_no_region_is_reported():
         covered = sum(r.free_cells for r in plan.regions)
         assert covered + plan.cover.uncovered.sum() >= plan.grid.universe.sum()
         assert_valid(plan)
+
+
+def test_rooms_know_how_high_they_are(sample: FloorPlan) -> None:
+    heights = [r.height for r in sample.regions if r.height is not None]
+    assert len(heights) >= 10
+    assert np.abs(np.array(heights) - 2.654).max() < 0.01  # truth.json of the bundled survey

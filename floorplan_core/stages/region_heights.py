@@ -1,0 +1,74 @@
+"""How high each region is: the level above head height that holds more surface than its walls explain.
+
+In: regions, the surfels above the floor. Out: regions with ``height``, where their ceiling was seen. A wall
+puts the same number of surfels into every level; a ceiling, or the panels hung from it, puts far more into
+one. Cost: linear in the surfels above head height.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.raster import polygon_window
+from floorplan_core.model import OccupancyGrid, Region
+from floorplan_core.model.evidence import Evidence
+
+Float = NDArray[np.float64]
+
+_LOWEST = 1.9  # m above the floor: nothing lower is taken for a ceiling
+_HIGHEST = 12.0  # m: what is higher is another storey, or the roof of a hall
+_LEVEL = 0.005  # m between two levels that are counted
+_THICK = 13  # levels that surfels of one ceiling spread over: noise, panels
+_MORE = 4.0  # times the surfels of as many usual levels, that a ceiling has
+_LEAST = 0.5  # m2 of ceiling seen
+
+
+def measure_heights(
+    regions: tuple[Region, ...], evidence: Evidence, grid: OccupancyGrid
+) -> tuple[Region, ...]:
+    """The regions with their heights; one whose ceiling was not seen keeps None."""
+    count = round((_HIGHEST - _LOWEST) / _LEVEL)
+    levels = np.zeros((len(regions), count), dtype=np.int64)
+    _count(evidence.xyz, _labels(regions, grid), grid.origin, grid.cell, levels)
+    least = _LEAST / evidence.surfel**2
+    return tuple(replace(r, height=_ceiling(row, least)) for r, row in zip(regions, levels, strict=True))
+
+
+@njit(cache=True, nogil=True)
+def _count(xyz: Float, labels: NDArray[np.int32], origin: Float, cell: float, levels: Any) -> None:
+    """Add every surfel to its level of the region that it lies over."""
+    ny, nx = labels.shape
+    for k in range(len(xyz)):
+        level = int((xyz[k, 2] - _LOWEST) / _LEVEL)
+        if xyz[k, 2] <= _LOWEST or level >= levels.shape[1]:
+            continue
+        ix, iy = int((xyz[k, 0] - origin[0]) / cell), int((xyz[k, 1] - origin[1]) / cell)
+        if 0 <= ix < nx and 0 <= iy < ny and labels[iy, ix] >= 0:
+            levels[labels[iy, ix], level] += 1
+
+
+def _labels(regions: tuple[Region, ...], grid: OccupancyGrid) -> NDArray[np.int32]:
+    """(ny, nx) the number of the region of each cell, -1 where there is none."""
+    labels = np.full(grid.states.shape, -1, dtype=np.int32)
+    for number, region in enumerate(regions):
+        window, mask = polygon_window(region.polygon, grid.origin, grid.cell, grid.states.shape)
+        labels[window][mask] = number
+    return labels
+
+
+def _ceiling(levels: NDArray[np.int64], least: float) -> float | None:
+    """Metres above the floor of the ceiling, from the number of surfels at each level; None without one."""
+    sums = np.convolve(levels, np.ones(_THICK, dtype=np.int64), mode="same")
+    best = int(sums.argmax())
+    usual = float(np.median(sums[sums > 0])) if sums.any() else 0.0
+    if sums[best] < max(least, _MORE * usual):
+        return None
+    first = max(best - _THICK // 2, 0)
+    inside = np.cumsum(levels[first : first + _THICK])
+    median = np.interp(inside[-1] / 2, np.concatenate([[0], inside]), np.arange(len(inside) + 1))
+    return float(_LOWEST + (first + median) * _LEVEL)
