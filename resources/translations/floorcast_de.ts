@@ -92,6 +92,10 @@
    <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
   </message>
   <message>
+   <source>A shut leaf closes it</source>
+   <translation>Ein geschlossenes Türblatt füllt sie</translation>
+  </message>
+  <message>
    <source>A surface that ends less than this below the ceiling touches it.</source>
    <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
   </message>
@@ -932,6 +936,10 @@
    <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
   </message>
   <message>
+   <source>Its leaf stands back from the wall</source>
+   <translation>Ihr Türblatt liegt hinter der Wandfläche</translation>
+  </message>
+  <message>
    <source>Its thickness</source>
    <translation>Ihre Dicke</translation>
   </message>
@@ -1350,6 +1358,10 @@
   <message>
    <source>Nothing can be clicked by coordinates in the pane {0}.</source>
    <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing stands in it</source>
+   <translation>Nichts steht darin</translation>
   </message>
   <message>
    <source>Nothing to warn of.</source>
@@ -2426,6 +2438,10 @@
   <message>
    <source>The wall added at {0} is too short for one.</source>
    <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall ends freely on both sides of it</source>
+   <translation>Die Wand endet beiderseits frei</translation>
   </message>
   <message>
    <source>The wall moved from {0} is not there any more.</source>
@@ -3219,6 +3235,10 @@
    <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
   </message>
   <message>
+   <source>A shut leaf closes it</source>
+   <translation>Ein geschlossenes Türblatt füllt sie</translation>
+  </message>
+  <message>
    <source>A surface that ends less than this below the ceiling touches it.</source>
    <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
   </message>
@@ -4059,6 +4079,10 @@
    <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
   </message>
   <message>
+   <source>Its leaf stands back from the wall</source>
+   <translation>Ihr Türblatt liegt hinter der Wandfläche</translation>
+  </message>
+  <message>
    <source>Its thickness</source>
    <translation>Ihre Dicke</translation>
   </message>
@@ -4477,6 +4501,10 @@
   <message>
    <source>Nothing can be clicked by coordinates in the pane {0}.</source>
    <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing stands in it</source>
+   <translation>Nichts steht darin</translation>
   </message>
   <message>
    <source>Nothing to warn of.</source>
@@ -5553,6 +5581,10 @@
   <message>
    <source>The wall added at {0} is too short for one.</source>
    <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall ends freely on both sides of it</source>
+   <translation>Die Wand endet beiderseits frei</translation>
   </message>
   <message>
    <source>The wall moved from {0} is not there any more.</source>
@@ -6346,6 +6378,10 @@
    <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
   </message>
   <message>
+   <source>A shut leaf closes it</source>
+   <translation>Ein geschlossenes Türblatt füllt sie</translation>
+  </message>
+  <message>
    <source>A surface that ends less than this below the ceiling touches it.</source>
    <translation>Eine Fläche, die weniger als dies unter der Decke endet, berührt sie.</translation>
   </message>
@@ -7186,6 +7222,10 @@
    <translation>Sie wurde von beiden Seiten der Wand gesehen</translation>
   </message>
   <message>
+   <source>Its leaf stands back from the wall</source>
+   <translation>Ihr Türblatt liegt hinter der Wandfläche</translation>
+  </message>
+  <message>
    <source>Its thickness</source>
    <translation>Ihre Dicke</translation>
   </message>
@@ -7604,6 +7644,10 @@
   <message>
    <source>Nothing can be clicked by coordinates in the pane {0}.</source>
    <translation>In der Ansicht {0} lässt sich nichts nach Koordinaten anklicken.</translation>
+  </message>
+  <message>
+   <source>Nothing stands in it</source>
+   <translation>Nichts steht darin</translation>
   </message>
   <message>
    <source>Nothing to warn of.</source>
@@ -8680,6 +8724,10 @@
   <message>
    <source>The wall added at {0} is too short for one.</source>
    <translation>Die bei {0} hinzugefügte Wand ist zu kurz für eine Wand.</translation>
+  </message>
+  <message>
+   <source>The wall ends freely on both sides of it</source>
+   <translation>Die Wand endet beiderseits frei</translation>
   </message>
   <message>
    <source>The wall moved from {0} is not there any more.</source>
