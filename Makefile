@@ -3,6 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 DEMO := demo-plan
+WORKERS ?= 2
 
 .PHONY: help setup demo test check format bench bench-ui bench-io fuzz accuracy app app-test docs clean
 .DEFAULT_GOAL := help
@@ -20,7 +21,7 @@ demo: $(READY) ## a floor plan of the bundled survey
 	$(BIN)/floorcast plan resources/sample_survey --out $(DEMO)
 
 test: $(READY) ## the whole test suite, offscreen
-	QT_QPA_PLATFORM=offscreen $(BIN)/python -m pytest
+	QT_QPA_PLATFORM=offscreen $(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadfile
 
 check: $(READY) ## lint, format, types, architecture
 	$(BIN)/ruff check .

@@ -102,6 +102,8 @@ _SIGNS = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<"}
 def _bounds(info: Any) -> str:
     if get_origin(info.annotation) is Literal:
         return ", ".join(map(str, get_args(info.annotation)))
+    if info.annotation is bool:
+        return "True, False"
     parts = [
         f"{sign} {getattr(limit, key):g}"
         for limit in info.metadata
