@@ -206,9 +206,7 @@ class CandidatesConfig(Section):
         ge=1,
         le=10000,
     )
-    max_count: int = setting(
-        10_000_000, "", "More valid rectangles than this are refused.", ge=1, le=10**9
-    )
+    max_count: int = setting(10_000_000, "", "More valid rectangles than this are refused.", ge=1, le=10**9)
 
 
 class CoverConfig(Section):

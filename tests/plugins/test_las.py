@@ -69,7 +69,11 @@ def geo_keys(*keys):
 
 def test_geotiff_keys_name_system_and_unit(tmp_path, cloud):
     path = write_las(
-        tmp_path / "a.las", cloud / (1200 / 3937), "1.2", 1, vlrs=[geo_keys((1024, 1), (3072, 2263), (3076, 9003))]
+        tmp_path / "a.las",
+        cloud / (1200 / 3937),
+        "1.2",
+        1,
+        vlrs=[geo_keys((1024, 1), (3072, 2263), (3076, 9003))],
     )
     survey = opened(path, unit="auto", up="auto")
     assert survey.local_frame.crs == "EPSG:2263"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from floorcast_plugins.shape_classifier import ShapeClassifier, betweenness, circulation, typical_width
 from hypothesis import given
 from hypothesis import strategies as st
 
+from floorcast_plugins.shape_classifier import ShapeClassifier, betweenness, circulation, typical_width
 from floorplan_core.config import Config
 from floorplan_core.model import Region
 from floorplan_core.plugins import find_classifier
