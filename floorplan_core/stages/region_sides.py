@@ -138,11 +138,18 @@ def _overlap(a: Float, b: Float) -> float:
     return float(np.maximum(common, 0).sum())
 
 
-def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[RegionSide, ...]:
-    """The sides of all rings, the inside at their left, with the share of each that was seen."""
+def sides_of(
+    polygon: Any, walls: WallSurfaces, doors: Sequence[Door], residuals: bool = True
+) -> tuple[RegionSide, ...]:
+    """The sides of all rings, the inside at their left, with the share of each that was seen.
+
+    :param residuals: False leaves the residuals out, which cost most of the time.
+    """
     rings = ((polygon.exterior, False), *((ring, True) for ring in polygon.interiors))
     return tuple(
-        _side(a, b, walls, doors, hole) for ring, hole in rings for a, b in _edges(np.asarray(ring.coords))
+        _side(a, b, walls, doors, hole, residuals)
+        for ring, hole in rings
+        for a, b in _edges(np.asarray(ring.coords))
     )
 
 
@@ -151,7 +158,9 @@ def _edges(ring: Float) -> list[tuple[Float, Float]]:
     return [(points[k], points[(k + 1) % len(points)]) for k in range(len(points))]
 
 
-def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: bool) -> RegionSide:
+def _side(
+    a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: bool, residuals: bool
+) -> RegionSide:
     """A side with the share of its length along which wall, or a door in it, was seen."""
     across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
     low, high = sorted((float(a[1 - across]), float(b[1 - across])))
@@ -171,7 +180,8 @@ def _side(a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: 
     plane = walls.plane([*names, *(name for _, _, name in placed)], lengths)
     start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
     share = round(min(1.0, covered / max(high - low, 1e-9)), 4)
-    return RegionSide(start, end, plane, share, hole, _residual(seen, float(a[across])))
+    residual = _residual(seen, float(a[across])) if residuals else None
+    return RegionSide(start, end, plane, share, hole, residual)
 
 
 def _residual(seen: Float, at: float) -> float | None:

@@ -84,6 +84,7 @@ class RoomGrower:
     ) -> None:
         self._walls, self._doors, self._grid = walls, doors, grid
         self._usual = 0.0
+        self._known: dict[bytes, list[RegionSide]] = {}
         self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
         self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
         self._tree = shapely.STRtree(self._lines)
@@ -111,7 +112,12 @@ class RoomGrower:
         return self._fill_notches(self._push_sides(filled, others), others)
 
     def _sides(self, polygon: Any) -> list[RegionSide]:
-        return [s for s in sides_of(polygon, self._walls, self._doors) if not s.hole]
+        """The outer sides; asked for again and again, so they are kept by the shape."""
+        key = polygon.wkb
+        if key not in self._known:
+            sides = sides_of(polygon, self._walls, self._doors, residuals=False)
+            self._known[key] = [s for s in sides if not s.hole]
+        return self._known[key]
 
     def _fill_notches(self, polygon: Any, others: Any) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
