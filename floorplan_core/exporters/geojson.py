@@ -51,8 +51,12 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
     polygons = matched([r.polygon for r in plan.regions]) if plan.regions else []
     features = [_region(plan, r, p) for r, p in zip(plan.regions, polygons, strict=True)]
     features += [_door(plan, door) for door in plan.doors]
-    features += [_plane(plan, plane) for plane in plan.planes if plane.by_hand != "hidden"]
-    features += [_segment(plan, segment) for segment in plan.segments]
+    planes = [plane for plane in plan.planes if plane.by_hand != "hidden"]
+    extent = plan_extent(plan)
+    ends = [_clipped(plane, extent) for plane in planes] + [s.line() for s in plan.segments]
+    lines = _lines(plan, ends)
+    features += [_plane(plane, line) for plane, line in zip(planes, lines, strict=False)]
+    features += [_segment(s, line) for s, line in zip(plan.segments, lines[len(planes) :], strict=True)]
     features.append(_speculated(plan, polygons))
     return {"type": "FeatureCollection", "floorcast": _head(plan), "features": features}
 
@@ -126,10 +130,13 @@ def _door(plan: FloorPlan, door: Door) -> Json:
     return _feature(door.id, _line(plan, door.line()), properties)
 
 
-def _plane(plan: FloorPlan, plane: LayoutPlane) -> Json:
-    x0, y0, x1, y1 = plan_extent(plan)
-    o = plane.offset
-    ends = [[o, y0], [o, y1]] if plane.facing.axis == 0 else [[x0, o], [x1, o]]
+def _clipped(plane: LayoutPlane, extent: tuple[float, float, float, float]) -> Float:
+    """(2, 2) ends of the plane's line within x0, y0, x1, y1; manhattan frame."""
+    (x0, y0, x1, y1), o = extent, plane.offset
+    return np.array([[o, y0], [o, y1]] if plane.facing.axis == 0 else [[x0, o], [x1, o]])
+
+
+def _plane(plane: LayoutPlane, line: Json) -> Json:
     properties = {
         "kind": "layout_plane",
         "facing": plane.facing.name.lower(),
@@ -141,7 +148,7 @@ def _plane(plan: FloorPlan, plane: LayoutPlane) -> Json:
         "speculated": bool(plane.speculated),
         **_corrected(plane),
     }
-    return _feature(plane.id, _line(plan, np.array(ends)), properties)
+    return _feature(plane.id, line, properties)
 
 
 def _corrected(thing: Region | Door | LayoutPlane) -> Json:
@@ -149,7 +156,7 @@ def _corrected(thing: Region | Door | LayoutPlane) -> Json:
     return {"corrected": True} if thing.by_hand else {}
 
 
-def _segment(plan: FloorPlan, segment: LayoutSegment) -> Json:
+def _segment(segment: LayoutSegment, line: Json) -> Json:
     properties = {
         "kind": "layout_segment",
         "plane": segment.plane,
@@ -159,7 +166,7 @@ def _segment(plan: FloorPlan, segment: LayoutSegment) -> Json:
         "residual_m": _metres(segment.residual),
         "evidence": list(segment.evidence),
     }
-    return _feature(segment.id, _line(plan, segment.line()), properties)
+    return _feature(segment.id, line, properties)
 
 
 def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
@@ -203,6 +210,13 @@ def _rings(polygon: Any) -> list[list[list[float]]]:
 
 def _line(plan: FloorPlan, ends: Float) -> Json:
     return {"type": "LineString", "coordinates": _points(plan, ends)}
+
+
+def _lines(plan: FloorPlan, ends: list[Float]) -> list[Json]:
+    """Many lines at once."""
+    points = _points(plan, np.concatenate(ends)) if ends else []
+    pairs = zip(points[::2], points[1::2], strict=True)
+    return [{"type": "LineString", "coordinates": list(pair)} for pair in pairs]
 
 
 def _points(plan: FloorPlan, points: Float) -> list[list[float]]:

@@ -58,13 +58,22 @@ def has_parapet(profile: WallProfile, start: float, end: float) -> bool:
     """True where wall was seen along the whole aperture: a window or a hatch, not a door."""
     a, b = (round((v - profile.start) / profile.step) for v in (start, end))
     inside = profile.low[a + 2 : b - 2]
-    return len(inside) > 0 and float(np.percentile(inside, 25)) > _PARAPET
+    return len(inside) > 0 and percentile(inside, 25) > _PARAPET
+
+
+def percentile(values: Float, q: float) -> float:
+    """``np.percentile`` of a short array, to the bit, at a tenth of its cost: it is asked for every plane."""
+    ordered = np.sort(values)
+    at = (len(ordered) - 1) * q / 100
+    low, share = int(at), at - int(at)
+    a, b = float(ordered[low]), float(ordered[min(low + 1, len(ordered) - 1)])
+    return a + (b - a) * share if share < 0.5 else b - (b - a) * (1 - share)
 
 
 def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
     """Histogram, smoothed gradient and matched filter of one plane."""
     seen = profile.low[profile.low > 0]
-    full = float(np.percentile(seen, 60)) if len(seen) else 1.0
+    full = percentile(seen, 60) if len(seen) else 1.0
     histogram = np.minimum(profile.low / max(full, 1e-9), 1.0)
     sigma = max(config.smoothing / profile.step, 0.5)
     reach = max(2, round(4 * sigma))

@@ -9,7 +9,7 @@ import pytest
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, WallProfile
-from floorplan_core.stages.door_apertures import door_response
+from floorplan_core.stages.door_apertures import door_response, percentile
 from tests.box_world import EYE, LINTEL, Run, run, stations, survey, two_rooms, wall
 
 WIDTH_TOLERANCE = 0.03  # m
@@ -189,3 +189,11 @@ def test_the_gradient_of_a_clean_step_peaks_at_one():
     signal = door_response(_profile((50, 70)), DoorsConfig())
     assert signal.gradient.min() == pytest.approx(-1, abs=0.25)
     assert signal.gradient[5:-5].max() == pytest.approx(1, abs=0.25)
+
+
+@pytest.mark.parametrize("q", [0, 3, 25, 60, 100])
+def test_percentiles_are_those_of_numpy(q: int) -> None:
+    rng = np.random.default_rng(q)
+    for size in (1, 2, 3, 10, 101):
+        values = rng.random(size)
+        assert percentile(values, q) == np.percentile(values, q)
