@@ -5,9 +5,10 @@ from __future__ import annotations
 import logging
 import os
 import sys
-import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from floorcast_app.warm_up import WarmUp
 
 if TYPE_CHECKING:
     from floorcast_app.jobs import Jobs
@@ -33,7 +34,7 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
     app = make_application()
     window = make_window(unattended=script is not None)
     assert isinstance(window, MainWindow)
-    warming = threading.Thread(target=_warm_up, daemon=True)
+    warming = WarmUp()
     warming.start()
     if script is not None:
         from floorcast_app.script import run_script
@@ -58,9 +59,9 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
     return status
 
 
-def _let_end(warming: threading.Thread, jobs: Jobs) -> None:
+def _let_end(warming: WarmUp, jobs: Jobs) -> None:
     """Threads of ours end before the interpreter does: one that is torn off aborts the program."""
-    warming.join(LAST_WAIT)
+    warming.stop()
     jobs.wait(LAST_WAIT)
 
 
@@ -120,11 +121,3 @@ def _has_display() -> bool:
     if not sys.platform.startswith("linux"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
-
-
-def _warm_up() -> None:
-    """Load what the first plan needs while the user looks for a file."""
-    from floorplan_core.kernel_cache import use_kernel_cache
-
-    use_kernel_cache()
-    import floorplan_core.pipeline  # noqa: F401

@@ -90,6 +90,7 @@ def main() -> int:
     """Print the table."""
     from floorcast_app.main import make_application, make_window
     from floorcast_app.script import ScriptedApplication
+    from floorcast_app.warm_up import WarmUp
 
     began = time.perf_counter()
     app = make_application()
@@ -98,14 +99,17 @@ def main() -> int:
     window.show()
     app.processEvents()
     rows = [("first window, s", time.perf_counter() - began)]
+    warming = WarmUp()
+    warming.start()
     script, gaps = ScriptedApplication(window), Gaps()
     timer = QTimer(interval=TICK)
     timer.timeout.connect(gaps.tick)
     timer.start()
     with tempfile.TemporaryDirectory() as folder:
         survey = big_survey(Path(folder), POINTS)
-        spin(0.5)
         gaps.take()
+        spin(2)  # as long as somebody takes to choose a file
+        rows.append(("until a file is chosen: largest gap, ms", gaps.take()[0]))
         for name, work in (
             ("load and plan", lambda: script.run("file.open", path=survey)),
             ("look at it", lambda: spin(3)),
@@ -120,6 +124,7 @@ def main() -> int:
             rows += [(f"{name}: s", time.perf_counter() - started), ("    largest gap, ms", gap)]
             rows += [("    of it the window's own work, at most, ms", busy)]
         window.close()
+    warming.stop()
     for name, value in rows:
         sys.stdout.write(f"{name:44s} {value:8.2f}\n")
     return 0
