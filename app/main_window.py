@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QCoreApplication, QPoint, QSettings, QSize, Qt, QTimer
+from PySide6.QtCore import QByteArray, QPoint, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -31,6 +31,7 @@ from floorcast_app.qt_actions import QtActions
 from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
 from floorcast_app.selection import Item
+from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import OutputError, UsageError
@@ -48,10 +49,6 @@ NOT_IN_MENUS = (  # they need arguments: for the palette's settings, for panes a
     "view.pane", "view.look", "edit.select", "edit.history", "plan.set", "plan.preset", "measure.set",
 )  # fmt: skip
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("MainWindow", text)
 
 
 class MainWindow(QMainWindow):
@@ -126,12 +123,12 @@ class MainWindow(QMainWindow):
             if not self.picture(pane, width, height).save(str(staging), _picture_format(path)):
                 raise OutputError(f"Cannot write the picture {path.name}.")
         if not self.unattended:
-            self.tell(_tr("Wrote {name}.").format(name=path.name))
+            self.tell(tr("Wrote {name}.").format(name=path.name))
 
     def copy_picture(self, pane: str) -> None:
         """The picture of a pane into the clipboard."""
         QGuiApplication.clipboard().setImage(self.picture(pane, 1600, 1200))
-        self.tell(_tr("The picture is in the clipboard."))
+        self.tell(tr("The picture is in the clipboard."))
 
     def tell(self, text: str, kind: str = "info") -> None:
         """A sentence to the user, gone after a while; errors stay until they are clicked."""
@@ -225,13 +222,13 @@ class MainWindow(QMainWindow):
         self.setWindowModified(self.workbench.has_edits)
 
     def _dock(self, id: str, title: str, widget: QWidget) -> QDockWidget:
-        dock = QDockWidget(_tr(title), self)
+        dock = QDockWidget(tr(title), self)
         dock.setObjectName(id)
         dock.setWidget(widget)
         return dock
 
     def _fill_menus(self) -> None:
-        menus = {menu: self.menuBar().addMenu(_tr(MENU_TITLES[menu])) for menu in MENUS}
+        menus = {menu: self.menuBar().addMenu(tr(MENU_TITLES[menu])) for menu in MENUS}
         for action in self.workbench.actions:
             menu = action.id.partition(".")[0]
             if action.id not in NOT_IN_MENUS:
@@ -239,12 +236,12 @@ class MainWindow(QMainWindow):
             if action.id == "file.open_folder":
                 menus[menu].addMenu(self._recent_menu())
         menus["view"].addSeparator()
-        panes = menus["view"].addMenu(_tr("Panes"))
+        panes = menus["view"].addMenu(tr("Panes"))
         for dock in self.docks.values():
             panes.addAction(dock.toggleViewAction())
 
     def _recent_menu(self) -> QMenu:
-        menu = QMenu(_tr("Open recent"), self)
+        menu = QMenu(tr("Open recent"), self)
 
         def fill() -> None:
             menu.clear()
@@ -256,7 +253,7 @@ class MainWindow(QMainWindow):
         return menu
 
     def _fill_toolbar(self) -> None:
-        bar = QToolBar(_tr("Toolbar"), self)
+        bar = QToolBar(tr("Toolbar"), self)
         bar.setObjectName("toolbar")
         bar.setMovable(False)
         bar.setIconSize(QSize(20, 20))

@@ -7,17 +7,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMessageBox
 
+from floorcast_app.translation import tr
 from floorplan_core.errors import UsageError
 
 if TYPE_CHECKING:
     from floorcast_app.main_window import MainWindow
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("Interface", text)
 
 
 class QtInterface:
@@ -34,26 +30,26 @@ class QtInterface:
 
     def ask_open(self, title: str, filters: str) -> Path | None:
         if filters == "folder":
-            chosen = QFileDialog.getExistingDirectory(self._window, _tr(title))
+            chosen = QFileDialog.getExistingDirectory(self._window, tr(title))
         else:
-            chosen, _ = QFileDialog.getOpenFileName(self._window, _tr(title), "", open_filters())
+            chosen, _ = QFileDialog.getOpenFileName(self._window, tr(title), "", open_filters())
         return Path(chosen) if chosen else None
 
     def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
         patterns = export_filters() if filters == "export" else filters
-        chosen, _ = QFileDialog.getSaveFileName(self._window, _tr(title), suggested, patterns)
+        chosen, _ = QFileDialog.getSaveFileName(self._window, tr(title), suggested, patterns)
         return Path(chosen) if chosen else None
 
     def ask_text(self, title: str, label: str, text: str) -> str | None:
-        answer, good = QInputDialog.getText(self._window, _tr(title), _tr(label), text=text)
+        answer, good = QInputDialog.getText(self._window, tr(title), tr(label), text=text)
         return answer if good else None
 
     def ask_yes(self, text: str, detail: str) -> bool:
         if self._window.unattended:
             return True
         box = QMessageBox(self._window)
-        box.setText(_tr(text))
-        box.setInformativeText(_tr(detail))
+        box.setText(tr(text))
+        box.setInformativeText(tr(detail))
         box.setStandardButtons(QMessageBox.StandardButton.Discard | QMessageBox.StandardButton.Cancel)
         box.setDefaultButton(QMessageBox.StandardButton.Cancel)
         return bool(box.exec() == QMessageBox.StandardButton.Discard)
@@ -79,7 +75,7 @@ def open_filters() -> str:
     suffixes = {s for reader in default_registry().readers for s in reader.suffixes}
     suffixes |= {".floorcast", ".png", ".pgm", ".yaml"}
     patterns = " ".join(f"*{s}" for s in sorted(suffixes))
-    return f"{_tr('Surveys and projects')} ({patterns});;{_tr('All files')} (*)"
+    return f"{tr('Surveys and projects')} ({patterns});;{tr('All files')} (*)"
 
 
 def export_filters() -> str:
