@@ -141,3 +141,8 @@ class Jobs:
         if then is not None:
             then()
         self.ended.emit(error)
+
+
+def immediately(function: Callable[[], None]) -> None:
+    """A ``post`` for tests without an event loop."""
+    function()

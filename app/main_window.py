@@ -30,7 +30,6 @@ from floorcast_app.panes import PANES
 from floorcast_app.qt_actions import QtActions
 from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
-from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.workbench import Workbench
@@ -316,10 +315,6 @@ class MainWindow(QMainWindow):
         self._settings.setValue(f"workspace/{look.workspace}", self.saveState())
         self._settings.setValue("look/theme", look.theme)
         self._settings.setValue("look/units", look.units)
-
-    def zoom_to(self, item: Item) -> None:
-        """Bring an item into view in all panes."""
-        self.workbench.selection.zoom_asked.emit(item)
 
 
 def _picture_format(path: Path) -> str:

@@ -6,16 +6,16 @@ in :mod:`floorcast_app.jobs`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, replace
-from inspect import signature
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from floorcast_app.actions import all_actions
-from floorcast_app.actions.registry import Action, ActionRegistry
+from floorcast_app.actions.registry import ActionRegistry, as_json, check_arguments
 from floorcast_app.document import Document
 from floorcast_app.events import Event
+from floorcast_app.interface import Interface, NoInterface
+from floorcast_app.item_bounds import bring_into_view
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
 from floorcast_app.run_replay import Snapshot, snapshots
@@ -31,47 +31,11 @@ from floorplan_core.observer import Observer
 from floorplan_core.session import PlanningSession
 
 
-class Interface(Protocol):
-    """What actions may ask of a person. Scripts give arguments instead; their interface refuses."""
-
-    def ask_open(self, title: str, filters: str) -> Path | None: ...
-    def ask_save(self, title: str, filters: str, suggested: str) -> Path | None: ...
-    def ask_text(self, title: str, label: str, text: str) -> str | None: ...
-    def ask_yes(self, text: str, detail: str) -> bool: ...
-    def tell(self, text: str, kind: str = "info") -> None: ...  # kind: "info", "warning" or "error"
-    def show(self, what: str, **arguments: Any) -> Any: ...  # a dialog or pane by name
-
-
-class NoInterface:
-    """Nobody to ask: an action that would ask needs its arguments."""
-
-    def __init__(self) -> None:
-        self.told: list[tuple[str, str]] = []  # (kind, text)
-
-    def ask_open(self, title: str, filters: str) -> Path | None:
-        raise UsageError(f"{title}: give the path as an argument; there is nobody to ask.")
-
-    def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
-        raise UsageError(f"{title}: give the path as an argument; there is nobody to ask.")
-
-    def ask_text(self, title: str, label: str, text: str) -> str | None:
-        raise UsageError(f"{title}: give it as an argument; there is nobody to ask.")
-
-    def ask_yes(self, text: str, detail: str) -> bool:
-        return True
-
-    def tell(self, text: str, kind: str = "info") -> None:
-        self.told.append((kind, text))
-
-    def show(self, what: str, **arguments: Any) -> Any:
-        raise UsageError(f"{what} needs a window.")
-
-
 class Workbench:
     """One document and everything that is derived from it."""
 
     def __init__(self, post: Post) -> None:
-        self._post = self.post = post  # runs a function in the main thread, soon
+        self.post = post  # runs a function in the main thread, soon
         self._whole: FloorPlan | None = None  # the plan of the whole survey, while a moment of a run is shown
         self.document = Document()
         self.selection = Selection()
@@ -102,6 +66,7 @@ class Workbench:
         self.setting_asked = Event()  # (name) show "stage.field" in the settings form
         self.toolbox = ToolBox(self)  # the tool in hand, one for all plan panes
         self.document.changed.connect(self._document_changed)
+        self.selection.zoom_asked.connect(lambda item: bring_into_view(self, item))
         self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
         self.jobs.ended.connect(self._job_ended)
         self.jobs.warned.connect(self._warned)
@@ -113,8 +78,8 @@ class Workbench:
         action = self.actions[id]
         if not action.enabled(self):
             raise UsageError(f"{action.text.rstrip('…')} ({id}) is not possible now.")
-        _check_arguments(action, arguments)
-        self.log.append({"action": id, **{k: _plain(v) for k, v in arguments.items()}})
+        check_arguments(action, arguments)
+        self.log.append({"action": id, **{k: as_json(v) for k, v in arguments.items()}})
         return action.run(self, **arguments)
 
     def try_run(self, id: str, /, **arguments: Any) -> Any:
@@ -171,7 +136,6 @@ class Workbench:
 
         def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
             session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
-            self._post_session(session)
             session.begin_with_names(names)
             session.read(observer, lambda chunk: store.add(chunk))
             return session, session.plan(state.config, state.corrections, observer, origin=origin)
@@ -204,7 +168,7 @@ class Workbench:
 
         def work(observer: Observer) -> None:
             for snapshot in snapshots(session.reconstruction, state.config, every, observer):
-                self._post(lambda s=snapshot: self._add_snapshot(session, s))
+                self.post(lambda s=snapshot: self._add_snapshot(session, s))
 
         self.jobs.start("Replaying the run", work, lambda _: None)
 
@@ -270,7 +234,7 @@ class Workbench:
 
         state = self.state
         return Project(
-            survey=None if state.survey is None else astuple_shallow(state.survey),
+            survey=state.survey and (state.survey.path, state.survey.trajectory, state.survey.digest),
             config=state.config,
             corrections=state.corrections,
             checks=tuple(asdict(c) for c in state.checks),
@@ -360,12 +324,10 @@ class Workbench:
         self.session, self.plan = result
         self._whole = self.plan
         self.warnings = self.plan.warnings
+        self.assumptions = self.session.reconstruction.assumptions
         self.points_changed.emit()
         self.plan_changed.emit(self.plan)
         self.selection.keep_only(self.exists)
-
-    def _post_session(self, session: PlanningSession) -> None:
-        self.assumptions = session.reconstruction.assumptions
 
     def _job_ended(self, error: Exception | None) -> None:
         if error is not None:
@@ -390,30 +352,3 @@ class Workbench:
         self.selection.select(None)
         self.points_changed.emit()
         self.plan_changed.emit(None)
-
-
-def astuple_shallow(survey: SurveyRef) -> tuple[Path, Path | None, str]:
-    """Path, trajectory and digest."""
-    return survey.path, survey.trajectory, survey.digest
-
-
-def _check_arguments(action: Action, arguments: dict[str, Any]) -> None:
-    """Say in one sentence which argument an action does not take, or needs."""
-    try:
-        signature(action.run).bind(None, **arguments)
-    except TypeError as error:
-        raise UsageError(f"{action.id}: {error}.") from error
-
-
-def _plain(value: Any) -> Any:
-    """``value`` as JSON has it."""
-    if isinstance(value, Path):
-        return str(value)
-    if isinstance(value, (list, tuple, set, frozenset)):
-        return [_plain(v) for v in value]
-    return value if isinstance(value, (str, int, float, bool, dict, type(None))) else str(value)
-
-
-def immediately(function: Callable[[], None]) -> None:
-    """A ``post`` for tests without an event loop."""
-    function()

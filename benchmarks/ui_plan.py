@@ -24,11 +24,12 @@ from PySide6.QtWidgets import QApplication
 
 from benchmarks.record import Outcome, best_seconds, report
 from floorcast_app import theme
+from floorcast_app.jobs import immediately
 from floorcast_app.viewports.canvas import PlanCanvas
 from floorcast_app.viewports.floor_plan_view import FloorPlanView
 from floorcast_app.viewports.free_space_view import FreeSpaceView
 from floorcast_app.viewports.planes_view import PlanesView
-from floorcast_app.workbench import Workbench, immediately
+from floorcast_app.workbench import Workbench
 from floorplan_core.model import (
     FREE,
     OCCUPIED,

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 from floorcast_app.actions.naming import (
     Ids,
     about,
+    asked_number,
     door_at,
     middle,
+    names_of,
     on_plane,
     plane_at,
     point,
@@ -52,14 +54,16 @@ def hide_plane(workbench: Workbench, plane: Ids = None) -> None:
     """Say of walls that they are none."""
     chosen = things(workbench, "plane", plane)
     workbench.correct(
-        f"Switch off {_names('wall', chosen)}", *(HidePlane(plane_at(workbench, p)) for p in chosen)
+        f"Switch off {names_of('wall', chosen)}", *(HidePlane(plane_at(workbench, p)) for p in chosen)
     )
 
 
 def keep_plane(workbench: Workbench, plane: Ids = None) -> None:
     """Say of planes that they are walls; switches them on again, too."""
     chosen = things(workbench, "plane", plane)
-    workbench.correct(f"Keep {_names('wall', chosen)}", *(KeepPlane(plane_at(workbench, p)) for p in chosen))
+    workbench.correct(
+        f"Keep {names_of('wall', chosen)}", *(KeepPlane(plane_at(workbench, p)) for p in chosen)
+    )
 
 
 def move_plane(
@@ -78,7 +82,7 @@ def move_plane(
         x, y = (float(v) for v in to)
         offset = (x, y)[wall.facing.axis]
     if offset is None:
-        offset = _asked_number(workbench, "Move wall", "Offset in metres", wall.offset)
+        offset = asked_number(workbench, "Move wall", "Offset in metres", wall.offset)
     if offset is None:
         return
     if snap:
@@ -122,7 +126,7 @@ def accept_door(workbench: Workbench, door: Ids = None) -> None:
     """Say of doors that they are ones."""
     chosen = things(workbench, "door", door)
     workbench.correct(
-        f"Accept {_names('door', chosen)}", *(AcceptDoor(door_at(workbench, d)) for d in chosen)
+        f"Accept {names_of('door', chosen)}", *(AcceptDoor(door_at(workbench, d)) for d in chosen)
     )
 
 
@@ -130,7 +134,7 @@ def reject_door(workbench: Workbench, door: Ids = None) -> None:
     """Say of doors that there is wall."""
     chosen = things(workbench, "door", door)
     workbench.correct(
-        f"Reject {_names('door', chosen)}", *(RejectDoor(door_at(workbench, d)) for d in chosen)
+        f"Reject {names_of('door', chosen)}", *(RejectDoor(door_at(workbench, d)) for d in chosen)
     )
 
 
@@ -163,7 +167,7 @@ def resize_door(
     chosen: Door = things(workbench, "door", door)[0]
     if start is None or end is None:
         if width is None:
-            width = _asked_number(workbench, "Resize door", "Width in metres", chosen.width)
+            width = asked_number(workbench, "Resize door", "Width in metres", chosen.width)
         if width is None:
             return
         if not width > 0:
@@ -190,7 +194,7 @@ def relabel(workbench: Workbench, region: Ids = None, label: str | None = None) 
     if not label.strip():
         raise UsageError("A label is a word, like room or corridor.")
     said = (LabelRegion(region_at(workbench, r), label.strip()) for r in chosen)
-    workbench.correct(f"Label {_names('region', chosen)} {label.strip()}", *said)
+    workbench.correct(f"Label {names_of('region', chosen)} {label.strip()}", *said)
 
 
 def rename(workbench: Workbench, region: str | None = None, name: str | None = None) -> None:
@@ -217,7 +221,7 @@ def merge(workbench: Workbench, regions: Ids = None) -> None:
         return
     chosen = things(workbench, "region", regions, least=2)
     said = MergeRegions(tuple(region_at(workbench, r) for r in chosen))
-    workbench.correct(f"Merge {_names('region', chosen)}", said)
+    workbench.correct(f"Merge {names_of('region', chosen)}", said)
 
 
 def split(
@@ -261,28 +265,6 @@ def release(workbench: Workbench, item: Item | str | None = None) -> None:
 def clear(workbench: Workbench) -> None:
     """Take all corrections back, in one step."""
     workbench.change("Take back all corrections", corrections=())
-
-
-def _names(word: str, chosen: Sequence[object]) -> str:
-    """ "wall p3", "walls p3 and p7", "5 walls"."""
-    names = [str(getattr(c, "name", "") or c.id) for c in chosen]  # type: ignore[attr-defined]
-    if len(names) == 1:
-        return f"{word} {names[0]}"
-    return f"{word}s {' and '.join(names)}" if len(names) == 2 else f"{len(names)} {word}s"
-
-
-def _asked_number(workbench: Workbench, title: str, label: str, now: float) -> float | None:
-    text = workbench.ui.ask_text(title, label, f"{now:.3f}")
-    if text is None:
-        return None
-    try:
-        return float(text.strip().removesuffix("m").strip().replace(",", "."))
-    except ValueError:
-        raise UsageError(f"{text!r} is not a number of metres, like 3.412.") from None
-
-
-def _corrected(workbench: Workbench) -> bool:
-    return bool(workbench.state.corrections)
 
 
 ACTIONS: tuple[Action, ...] = (
@@ -410,6 +392,6 @@ ACTIONS: tuple[Action, ...] = (
         "The plan as the machine made it; undo brings your corrections back.",
         "",
         "rotate-ccw",
-        _corrected,
+        lambda w: bool(w.state.corrections),
     ),
 )

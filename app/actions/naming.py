@@ -184,3 +184,22 @@ def _of_region(said: Sequence[Correction], region: Region) -> list[int]:
             line = shapely.LineString([c.start, c.end])
             out += [k] if line.distance(region.polygon) < _SPLIT else []
     return out
+
+
+def names_of(word: str, chosen: Sequence[object]) -> str:
+    """ "wall p3", "walls p3 and p7", "5 walls"."""
+    names = [str(getattr(c, "name", "") or c.id) for c in chosen]  # type: ignore[attr-defined]
+    if len(names) == 1:
+        return f"{word} {names[0]}"
+    return f"{word}s {' and '.join(names)}" if len(names) == 2 else f"{len(names)} {word}s"
+
+
+def asked_number(workbench: Workbench, title: str, label: str, now: float) -> float | None:
+    """Metres that a person types; None where they give up, :class:`UsageError` for what is no number."""
+    text = workbench.ui.ask_text(title, label, f"{now:.3f}")
+    if text is None:
+        return None
+    try:
+        return float(text.strip().removesuffix("m").strip().replace(",", "."))
+    except ValueError:
+        raise UsageError(f"{text!r} is not a number of metres, like 3.412.") from None

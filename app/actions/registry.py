@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from inspect import signature
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from floorplan_core.errors import UsageError
@@ -58,3 +60,20 @@ class ActionRegistry:
         except KeyError:
             known = ", ".join(self._actions)
             raise UsageError(f"There is no action {id!r}; the actions are: {known}.") from None
+
+
+def check_arguments(action: Action, arguments: dict[str, Any]) -> None:
+    """Say in one sentence which argument an action does not take, or needs."""
+    try:
+        signature(action.run).bind(None, **arguments)
+    except TypeError as error:
+        raise UsageError(f"{action.id}: {error}.") from error
+
+
+def as_json(value: Any) -> Any:
+    """``value`` as JSON has it."""
+    if isinstance(value, Path):
+        return str(value)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return [as_json(v) for v in value]
+    return value if isinstance(value, (str, int, float, bool, dict, type(None))) else str(value)

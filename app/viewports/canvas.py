@@ -26,19 +26,16 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app import theme
-from floorcast_app.layers.item_shapes import item_shape
 from floorcast_app.layers.partial import partial_layer
-from floorcast_app.layers.source import source_of
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.selection import Item
-from floorcast_app.state import DocumentState
 from floorcast_app.tools.gestures import At, Point, Tool
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
-from floorcast_app.viewports.plan_checks import check_at, check_ends, paint_checks
+from floorcast_app.viewports.plan_checks import check_at, paint_checks
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
 from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
@@ -57,8 +54,6 @@ HIT = 6.0  # pixels around a line within which it is hit
 CLICK = 4.0  # pixels that a click may move
 SETTLE = 60  # ms that other panes than the one under the pointer wait for the camera to rest
 AROUND_PLAN = 1.4  # how much more than a plan that is being made is shown
-AROUND_ITEM = 1.8  # how much more than a thing is shown when it is zoomed to
-SMALLEST_SPAN = 2.0  # metres: small things are not zoomed to more closely
 KEYS = {Qt.Key.Key_Return: "Enter", Qt.Key.Key_Enter: "Enter", Qt.Key.Key_Backspace: "Backspace"}
 
 
@@ -145,11 +140,10 @@ class PlanCanvas(QWidget):
             (w.view.changed, self._look_changed),
             (w.selection.changed, self.update),
             (w.selection.hover_changed, self.update),
-            (w.selection.zoom_asked, self._zoom_to),
-            (w.document.changed, self._document_changed),
+            (w.document.changed, lambda before, after: self.update()),
             (w.toolbox.changed, self._tool_changed),
             (w.pointer_moved, self._pointer_moved),
-            (theme.changed, self._theme_changed),
+            (theme.changed, lambda name: self._refresh()),
         )
         listen(self, self._bound)
 
@@ -190,12 +184,6 @@ class PlanCanvas(QWidget):
         else:
             self._refresh()
 
-    def _theme_changed(self, name: str) -> None:
-        self._refresh()
-
-    def _document_changed(self, before: DocumentState, after: DocumentState) -> None:
-        self.update()
-
     def _tool_changed(self) -> None:
         cross = self.workbench.toolbox.tool.cursor == "cross"
         self.setCursor(Qt.CursorShape.CrossCursor if cross else Qt.CursorShape.ArrowCursor)
@@ -205,22 +193,6 @@ class PlanCanvas(QWidget):
         mine = self._inside or x is None or y is None
         self._pointer = None if mine else (x, y)  # type: ignore[assignment]
         self.update()
-
-    def _zoom_to(self, item: Item) -> None:
-        """Bring a thing into view; all panes come to the same, so it does not matter which comes last."""
-        bounds = self._bounds(item)
-        if bounds is None:
-            return
-        fields = framed(bounds, AROUND_ITEM)
-        self.workbench.view.set(**{**fields, "span": max(float(fields["span"]), SMALLEST_SPAN)})  # type: ignore[arg-type]
-
-    def _bounds(self, item: Item) -> tuple[float, float, float, float] | None:
-        if item.kind == "check":
-            ends = check_ends(self.workbench, item.id)
-            xs, ys = zip(*ends, strict=True) if ends else ((), ())
-            return (min(xs), min(ys), max(xs), max(ys)) if ends else None
-        plan = self.workbench.plan
-        return item_shape(source_of(plan), item).bounds if plan is not None else None
 
     def _refresh(self) -> None:
         self._settle.stop()

@@ -7,22 +7,14 @@ import math
 import numpy as np
 from PySide6.QtGui import QPainter
 
+from floorcast_app.item_bounds import check_ends
 from floorcast_app.layers.hit_index import segment_distance
 from floorcast_app.selection import Item
-from floorcast_app.tools.gestures import Point
 from floorcast_app.viewports.plan_frame import Frame
 from floorcast_app.viewports.plan_overlay import paint_check
 from floorcast_app.workbench import Workbench
 
 LAYER = "dimensions"  # of the look, that shows them
-
-
-def check_ends(workbench: Workbench, id: str) -> tuple[Point, Point] | None:
-    """The ends of a measurement in plan coordinates."""
-    check = workbench.find(Item("check", id))
-    if check is None or workbench.plan is None:
-        return None
-    return workbench.to_plan(check.start), workbench.to_plan(check.end)
 
 
 def check_at(workbench: Workbench, x: float, y: float, reach: float) -> Item | None:

@@ -22,8 +22,6 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app.format import count
-from floorcast_app.layers.item_shapes import item_shape
-from floorcast_app.layers.source import source_of
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.rendering.cloud import Cloud, plan_origin, scene_matrix
 from floorcast_app.rendering.cloud_loader import CloudLoader, CloudMaker, Loaded, Wanted
@@ -32,7 +30,6 @@ from floorcast_app.rendering.renderer import Frame, Renderer
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
-from floorcast_app.viewports.canvas import AROUND_ITEM, SMALLEST_SPAN
 from floorcast_app.viewports.plan_camera import framed
 from floorcast_app.viewports.space_buttons import ViewButtons
 from floorcast_app.viewports.space_overlay import Overlay, draw_overlay
@@ -121,7 +118,6 @@ class SpaceView(QWidget):
             (w.view.changed, self._look_changed),
             (w.selection.changed, self._ask),
             (w.selection.hover_changed, self._ask),
-            (w.selection.zoom_asked, self._zoom_to),
             (w.jobs.started, lambda _text: self._poll.start()),
         )
         for event, listener in self._bound:
@@ -233,14 +229,6 @@ class SpaceView(QWidget):
     def _show_frame(self, frame: Frame, fine: bool) -> None:
         self.frame, self._image = frame, _image_of(frame)
         self.update()
-
-    def _zoom_to(self, item: Item) -> None:
-        """As the plan panes do it: all come to the same."""
-        plan = self.workbench.plan
-        bounds = item_shape(source_of(plan), item).bounds if plan is not None else None
-        if bounds is not None:
-            fields = framed(bounds, AROUND_ITEM)
-            self.workbench.view.set(**{**fields, "span": max(fields["span"], SMALLEST_SPAN)})
 
     # ---- painting ---------------------------------------------------------------------------------------
 

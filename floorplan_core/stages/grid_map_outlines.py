@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.raster import cells_to_polygon, polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import OCCUPIED, OccupancyGrid, Region, RegionSide
+from floorplan_core.stages.regions import region_of
 
 Bool = NDArray[np.bool_]
 Float = NDArray[np.float64]
@@ -85,20 +86,7 @@ def outline_region(polygon: Any, grid: OccupancyGrid, rows: NDArray[np.int64]) -
         for ring, hole in ((polygon.exterior, False), *((r, True) for r in polygon.interiors))
         for a, b in zip(np.asarray(ring.coords)[:-1], np.asarray(ring.coords)[1:], strict=True)
     )
-    length = sum(s.length for s in sides)
-    walled = sum(s.length * s.observed for s in sides) / length if length else 0.0
-    return Region(
-        id="",
-        name="",
-        polygon=polygon,
-        label="",
-        free_cells=free,
-        total_cells=total,
-        turning_distance=0.0,
-        sides=sides,
-        confidence=round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3),
-        rectangles=rows,
-    )
+    return region_of(polygon, rows, sides, free, total)
 
 
 def _side(a: Float, b: Float, grid: OccupancyGrid, hole: bool) -> RegionSide:

@@ -20,7 +20,15 @@ from numpy.typing import NDArray
 from floorplan_core.config import RegionsConfig
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, union_boxes, without_slits
-from floorplan_core.model import Door, LayoutPlane, LayoutSegment, OccupancyGrid, RectangleCover, Region
+from floorplan_core.model import (
+    Door,
+    LayoutPlane,
+    LayoutSegment,
+    OccupancyGrid,
+    RectangleCover,
+    Region,
+    RegionSide,
+)
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
@@ -112,9 +120,16 @@ def make_region(
     """The region of a polygon and of ``rows`` of the cover, with sides and cells; no id, name or label."""
     polygon = shapely.orient_polygons(polygon)
     sides = sides_of(polygon, walls, doors)
+    free, total = _cells(polygon, grid)
+    return region_of(polygon, rows, sides, free, total)
+
+
+def region_of(
+    polygon: Any, rows: NDArray[np.int64] | None, sides: tuple[RegionSide, ...], free: int, total: int
+) -> Region:
+    """A region without id, name or label; half of its confidence is the wall seen, half the floor seen."""
     length = sum(s.length for s in sides)
     walled = sum(s.length * s.observed for s in sides) / length if length else 0.0
-    free, total = _cells(polygon, grid)
     confidence = round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3)
     return Region(
         id="",

@@ -8,8 +8,9 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
+from floorcast_app.jobs import immediately
 from floorcast_app.viewports.canvas import PlanCanvas
-from floorcast_app.workbench import Workbench, immediately
+from floorcast_app.workbench import Workbench
 from floorplan_core.model import FloorPlan
 
 LEFT = Qt.MouseButton.LeftButton

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from floorcast_app import open3d_viewer
+from floorcast_app.jobs import immediately
 from floorcast_app.open3d_viewer import Part, load_parts, open3d_scene, open_in_open3d, plan_parts, save_parts
-from floorcast_app.workbench import Workbench, immediately
+from floorcast_app.workbench import Workbench
 from floorplan_core.errors import UsageError
 from tests.app.plan_panes import drawn_workbench
 from tests.factories import small_flat

@@ -23,7 +23,8 @@ from dataclasses import replace
 from pathlib import Path
 from floorcast_app.recovery import Recovery
 from floorcast_app.state import Check, DocumentState
-from floorcast_app.workbench import Workbench, immediately
+from floorcast_app.jobs import immediately
+from floorcast_app.workbench import Workbench
 from floorplan_core.model.corrections import NameRegion
 
 workbench = Workbench(lambda function: None)

@@ -12,11 +12,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
 from floorcast_app import theme
+from floorcast_app.jobs import immediately
 from floorcast_app.rendering.camera import camera_of
 from floorcast_app.selection import Item
 from floorcast_app.viewports.space_overlay import shown_grid_step
 from floorcast_app.viewports.space_view import SpaceView
-from floorcast_app.workbench import Workbench, immediately
+from floorcast_app.workbench import Workbench
 from floorplan_core.model import PointChunk
 from tests.app.plan_panes import drawn_workbench
 from tests.factories import small_flat
