@@ -11,6 +11,7 @@ import hashlib
 import os
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 _HOMES = ("geometry", "stages", "readers", "simulation")  # the packages that hold kernels
@@ -37,6 +38,24 @@ def kernels_compiled() -> bool:
     """True where an earlier run left compiled kernels of this state of the sources."""
     folder = os.environ.get("NUMBA_CACHE_DIR")
     return folder is not None and next(Path(folder).rglob("*.nbi"), None) is not None
+
+
+def on_first_compilation(tell: Callable[[], None]) -> None:
+    """Call ``tell`` once, when a kernel is first compiled, not read from the cache; perhaps from a thread."""
+    from numba.core import event
+
+    class First(event.Listener):  # type: ignore[misc]  # numba has no types
+        told = False
+
+        def on_start(self, event: object) -> None:
+            if not self.told:
+                self.told = True
+                tell()
+
+        def on_end(self, event: object) -> None:
+            pass
+
+    event.register("numba:compile", First())
 
 
 def source_digest() -> str:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan, Reconstruction
 
 Clock = dict[str, float]
+COMPILES_FIRST = "The first run compiles the kernels, which takes about a minute."
+COMPILES_MORE = "This input needs kernels that no earlier run did: they are compiled now, once."
 
 
 def make_any_plans(
@@ -94,12 +96,12 @@ def make_plans(
 
 
 def announce_compilation(observer: CommandObserver) -> None:
-    """Say why the first run takes longer: no kernels of this version are compiled yet."""
-    from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
+    """From now on say so when kernels have to be compiled, which makes the first run of a kind longer."""
+    from floorplan_core.kernel_cache import kernels_compiled, on_first_compilation, use_kernel_cache
 
     use_kernel_cache()
-    if not kernels_compiled():
-        observer.console.message("The first run compiles the kernels, which takes about a minute.")
+    sentence = COMPILES_MORE if kernels_compiled() else COMPILES_FIRST
+    on_first_compilation(lambda: observer.console.message(sentence))
 
 
 def replan(
