@@ -16,7 +16,15 @@ def evaluate(
     plan: Annotated[
         Path, typer.Argument(metavar="PLAN", help="A plan.geojson, or the folder that holds one.")
     ],
-    truth: Annotated[Path, typer.Argument(metavar="TRUTH", help="A truth.json.")],
+    truth: Annotated[
+        Path, typer.Argument(metavar="TRUTH", help="A truth.json, or an IFC model of the building.")
+    ],
+    storey: Annotated[
+        int, typer.Option("--storey", min=0, help="Storey of an IFC model, from the lowest, which is 0.")
+    ] = 0,
+    save_truth: Annotated[
+        Path | None, typer.Option("--save-truth", metavar="FILE", help="Write the truth as truth.json, too.")
+    ] = None,
     as_json: JsonFlag = False,
     quiet: QuietFlag = False,
     debug: DebugFlag = False,
@@ -25,10 +33,14 @@ def evaluate(
     from rich.table import Table
     from rich.text import Text
 
-    from floorplan_core.evaluation import evaluate as compare
+    from floorplan_core.evaluation import compare, load_truth, read_plan
+    from floorplan_core.evaluation.truth_file import write_truth
 
     console = Console(context, as_json=as_json, quiet=quiet)
-    report = compare(plan, truth)
+    known = load_truth(truth, storey)
+    report = compare(read_plan(plan), known)
+    if save_truth is not None:
+        write_truth(known, save_truth)
     table = Table(title=f"{plan} against {truth}", show_header=False)
     rows = report.rows()
     for index in range(max(map(len, rows), default=0)):

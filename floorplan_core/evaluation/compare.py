@@ -16,12 +16,13 @@ from floorplan_core.evaluation.truth import Exposure, Truth
 from floorplan_core.evaluation.truths import load_truth
 
 
-def evaluate(plan: Path, truth: Path) -> EvaluationReport:
+def evaluate(plan: Path, truth: Path, storey: int = 0) -> EvaluationReport:
     """Compare ``plan.geojson`` with a ground truth; both may be named by the folder that holds them.
 
+    ``storey`` is that of the truth where it is an IFC model of several, from the lowest.
     Raises :class:`~floorplan_core.errors.InputError` where one of the two is not what it claims to be.
     """
-    return compare(read_plan(plan), load_truth(truth))
+    return compare(read_plan(plan), load_truth(truth, storey))
 
 
 def compare(plan: PlanFile, truth: Truth) -> EvaluationReport:

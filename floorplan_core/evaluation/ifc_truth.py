@@ -1,4 +1,4 @@
-"""Ground truth from an IFC model: spaces, doors, windows and walls of its lowest storey."""
+"""Ground truth from an IFC model: spaces, doors, windows and walls of one of its storeys."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from floorplan_core.evaluation.truth import Truth, TruthDoor, TruthRoom, door_axis, room_dimensions
 
@@ -17,13 +18,13 @@ BODY_HEIGHT = 2.0  # m, walls that start above the head do not separate spaces
 JAMB = 0.03  # m, slack between a space's face and the wall's face
 
 
-def parse_ifc(document: dict[str, Any], source: str) -> Truth:
-    """Spaces of the lowest storey as rooms. Exterior doors are shut in the model: not required of a plan."""
+def parse_ifc(document: dict[str, Any], source: str, number: int = 0) -> Truth:
+    """Spaces of storey ``number``, from the lowest, as rooms. Exterior doors are shut: not required."""
     from floorplan_core.evaluation.truths import polygon
 
-    storey = lowest_storey(document["spaces"])
+    storey = nth_storey(document["spaces"], number)
     spaces = [s for s in document["spaces"] if s["storey"] == storey]
-    rooms = tuple(_room(s, polygon(s["polygon"]).simplify(0.001)) for s in spaces)
+    rooms = tuple(_room(s, polygon(s["polygon"], s.get("holes", ())).simplify(0.001)) for s in spaces)
     walls = [w["bbox"] for w in document.get("walls", ()) if w["storey"] == storey]
     doors = [_door(d, rooms) for d in document.get("doors", ()) if d["storey"] == storey]
     windows = [_window(w) for w in document.get("windows", ()) if w["storey"] == storey]
@@ -33,15 +34,31 @@ def parse_ifc(document: dict[str, Any], source: str) -> Truth:
         rooms=rooms,
         doors=tuple(doors + openings + windows),
         dimensions=room_dimensions(rooms),
+        world_from_building=_turned(float(document.get("yaw_deg", 0.0))),
         wall=_thickest(walls),
     )
 
 
-def lowest_storey(spaces: list[dict[str, Any]]) -> str:
-    """The storey whose spaces start lowest (ties: by name)."""
+def nth_storey(spaces: list[dict[str, Any]], number: int) -> str:
+    """The storey whose spaces start lowest but ``number`` (ties: by name)."""
     if not spaces:
         raise ValueError("it has no spaces")
-    return min((float(s["z"][0]), str(s["storey"])) for s in spaces)[1]
+    lowest: dict[str, float] = {}
+    for space in spaces:
+        name, z = str(space["storey"]), float(space["z"][0])
+        lowest[name] = min(z, lowest.get(name, z))
+    names = sorted(lowest, key=lambda name: (lowest[name], name))
+    if number >= len(names):
+        raise ValueError(
+            f"it has {len(names)} storeys with spaces ({', '.join(names)}), none of number {number}"
+        )
+    return names[number]
+
+
+def _turned(yaw_deg: float) -> NDArray[np.float64]:
+    """(2, 3) map from the building's axes to those of the model."""
+    c, s = np.cos(np.radians(yaw_deg)), np.sin(np.radians(yaw_deg))
+    return np.array([[c, -s, 0.0], [s, c, 0.0]])
 
 
 def _room(space: dict[str, Any], polygon: Any) -> TruthRoom:

@@ -4,6 +4,7 @@
 ``rooms`` + ``doors``    ``truth.json`` of simulated surveys (see the contract in the user documentation)
 ``wall_segments_high``   wall sections at two heights with room outlines (``gt_plan.json``)
 ``spaces``               spaces, doors and windows of an IFC model (``gt_ifc.json``)
+IFC (STEP file)          the same, from the model itself
 ``centers`` (NPZ)        free voxels that a real sensor carved, beside the ``points.ply`` they belong to
 =======================  ==============================================================================
 """
@@ -46,22 +47,33 @@ def find_truth(path: Path) -> Path:
     raise InputError(f"The folder {path} holds no ground truth ({', '.join(TRUTH_NAMES)}).")
 
 
-def load_truth(path: Path) -> Truth:
-    """Read a ground truth; :class:`InputError` says in one sentence why it is none."""
+def load_truth(path: Path, storey: int = 0) -> Truth:
+    """Read a ground truth; :class:`InputError` says in one sentence why it is none.
+
+    ``storey`` chooses among those of an IFC model, from the lowest; other truths have one.
+    """
     file = find_truth(path)
     if file.suffix.lower() == ".npz":
         from floorplan_core.evaluation.voxel_truth import load_free_voxels
 
         return load_free_voxels(file)
-    document = read_json(file, "ground truth")
+    document = _read_document(file)
     try:
-        return parse_truth(document, file.name)
+        return parse_truth(document, file.name, storey)
     except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"The ground truth {file.name} is malformed: {reason.rstrip('.')}.") from error
 
 
-def parse_truth(document: Any, source: str) -> Truth:
+def _read_document(file: Path) -> Any:
+    if file.suffix.lower() != ".ifc":
+        return read_json(file, "ground truth")
+    from floorplan_core.evaluation.ifc_model import read_ifc
+
+    return read_ifc(file)
+
+
+def parse_truth(document: Any, source: str, storey: int = 0) -> Truth:
     """A truth from parsed JSON, by its keys."""
     from floorplan_core.evaluation.ifc_truth import parse_ifc
     from floorplan_core.evaluation.wall_section_truth import parse_wall_sections
@@ -70,7 +82,7 @@ def parse_truth(document: Any, source: str) -> Truth:
     if "wall_segments_high" in keys:
         return parse_wall_sections(document, source)
     if "spaces" in keys:
-        return parse_ifc(document, source)
+        return parse_ifc(document, source, storey)
     if "rooms" in keys:
         return parse_own(document, source)
     raise InputError(f"{source} is no ground truth that Floorcast knows: it has no rooms and no spaces.")
