@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_plugins._depth_images import Camera
 from floorplan_core.api import InputError, Trajectory, is_rigid, nearest_rows, read_trajectory
 
 Float = NDArray[np.float64]
@@ -43,18 +44,6 @@ class Frame:
     path: Path
     seconds: float
     pose: Float  # (4, 4) as written: camera to world or the other way round
-
-
-@dataclass(frozen=True)
-class Camera:
-    """A pinhole camera; lengths in pixels."""
-
-    fx: float
-    fy: float
-    cx: float
-    cy: float
-    width: float  # of the image that these belong to; 0 where not stated
-    name: str  # of the file; "" where assumed
 
 
 @dataclass(frozen=True)

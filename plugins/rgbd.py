@@ -6,7 +6,6 @@ carrying the surfaces of one image into another: with the right reading they mee
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
@@ -16,7 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floorcast_plugins._rgbd_layouts import Camera, Frame, RgbdFolder, kind_of, read_folder
+from floorcast_plugins._depth_images import (
+    FARTHEST,
+    POINTS_OF_IMAGE,
+    Camera,
+    back_project,
+    decode_depth,
+    fitted,
+    moving,
+)
+from floorcast_plugins._rgbd_layouts import Frame, RgbdFolder, kind_of, read_folder
 from floorplan_core.api import (
     EmptyInput,
     InputError,
@@ -30,15 +38,10 @@ from floorplan_core.api import (
     Trajectory,
     assemble,
     hookimpl,
-    import_library,
     spread_sample,
 )
 
 Float = NDArray[np.float64]
-MAX_PIXELS = 1 << 24  # of an image: four times the largest depth camera
-POINTS_OF_IMAGE = 80_000  # about so many pixels of each are used: one a centimetre or two at 3 m
-FARTHEST = 10.0  # metres: depth cameras are guessing beyond
-MOVED, TURNED = 0.05, 3.0  # metres and degrees: an image nearer to the last one used adds nothing
 SAMPLE_IMAGES = 24
 PAIRS, PAIR_PIXELS = 12, 4000  # images and pixels that decide how the poses are meant
 SCALES = (1000.0, 5000.0, 6553.5)  # depth units in a metre: millimetres, TUM, Replica
@@ -141,7 +144,7 @@ def misfit(a: Frame, b: Frame, depth_a: Any, depth_b: Any, camera: Camera, readi
     points = back_project(depth_a, camera, reading.scale, PAIR_PIXELS)
     T = np.linalg.inv(reading.pose(b)) @ reading.pose(a)
     moved = points @ T[:3, :3].T + T[:3, 3]
-    fx, fy, cx, cy = _fitted(camera, depth_b.shape[1])
+    fx, fy, cx, cy = fitted(camera, depth_b.shape[1])
     ahead = moved[moved[:, 2] > 1e-3]
     u = np.round(ahead[:, 0] / ahead[:, 2] * fx + cx)
     v = np.round(ahead[:, 1] / ahead[:, 2] * fy + cy)
@@ -155,21 +158,7 @@ def misfit(a: Frame, b: Frame, depth_a: Any, depth_b: Any, camera: Camera, readi
 
 def moving_frames(frames: tuple[Frame, ...], reading: Reading) -> tuple[Frame, ...]:
     """The frames that moved or turned since the last one that was kept."""
-    kept: list[Frame] = []
-    last = np.full((4, 4), np.inf)
-    for frame in frames:
-        pose = reading.pose(frame)
-        if not np.isfinite(last).all() or _differs(last, pose):
-            kept.append(frame)
-            last = pose
-    return tuple(kept)
-
-
-def _differs(a: Float, b: Float) -> bool:
-    if np.linalg.norm(a[:3, 3] - b[:3, 3]) >= MOVED:
-        return True
-    cosine = (np.trace(a[:3, :3].T @ b[:3, :3]) - 1) / 2
-    return bool(np.degrees(np.arccos(np.clip(cosine, -1, 1))) >= TURNED)
+    return tuple(frames[row] for row in moving(np.array([reading.pose(frame) for frame in frames])))
 
 
 def read_depth(path: Path) -> Any:
@@ -178,39 +167,7 @@ def read_depth(path: Path) -> Any:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"Cannot read the depth image {path.name}: {error.strerror}.") from error
-    if len(data) < 33 or not data.startswith(b"\x89PNG\r\n\x1a\n"):
-        raise InputError(f"The depth image {path.name} is no PNG file.")
-    width, height = struct.unpack(">II", data[16:24])
-    if not 0 < width * height <= MAX_PIXELS:
-        raise InputError(f"The depth image {path.name} claims {width} x {height} pixels; it is damaged.")
-    cv2 = import_library("cv2", "opencv-python-headless", "depth images")
-    try:
-        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error as error:
-        raise InputError(f"The depth image {path.name} is damaged.") from error
-    if image is None or image.ndim != 2 or image.dtype != np.uint16:
-        what = (
-            "is damaged" if image is None else f"has {image.dtype} pixels of shape {image.shape}, not depth"
-        )
-        raise InputError(f"The depth image {path.name} {what}.")
-    return image
-
-
-def back_project(depth: Any, camera: Camera, scale: float, count: int) -> Float:
-    """(N, 3) points in the camera's frame (x right, y down, z ahead) of about ``count`` pixels."""
-    step = max(1, int(np.sqrt(depth.size / count)))
-    rows, columns = np.mgrid[step // 2 : depth.shape[0] : step, step // 2 : depth.shape[1] : step]
-    z = depth[rows, columns] / scale
-    good = (z > 0) & (z <= FARTHEST)
-    z, u, v = z[good], columns[good], rows[good]
-    fx, fy, cx, cy = _fitted(camera, depth.shape[1])
-    return np.column_stack([(u - cx) / fx * z, (v - cy) / fy * z, z])
-
-
-def _fitted(camera: Camera, width: int) -> tuple[float, float, float, float]:
-    """Intrinsics for an image of another width than they were stated for."""
-    factor = width / camera.width if camera.width > 0 else 1.0
-    return camera.fx * factor, camera.fy * factor, camera.cx * factor, camera.cy * factor
+    return decode_depth(data, path.name)
 
 
 def _chunks(frames: tuple[Frame, ...], camera: Camera, reading: Reading) -> Iterator[RawChunk]:

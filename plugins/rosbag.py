@@ -1,7 +1,8 @@
-"""ROS 1 and ROS 2 bags and MCAP (rosbags, no ROS needed): clouds or planar scans, placed by TF or odometry.
+"""ROS 1 and ROS 2 bags and MCAP (rosbags, no ROS needed): clouds, planar scans or depth images with poses.
 
-The topic with most clouds is read, else the one with most planar scans. Where its frame moves in the tree of
-transforms, that places it; else an odometry or pose topic; else the trajectory that the user names.
+The topic with most clouds is read, else the one with most planar scans, else that with most depth images.
+Where its frame moves in the tree of transforms, that places it; else an odometry or pose topic; else the
+trajectory that the user names.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_plugins import _ros_depth as depth
 from floorcast_plugins import _ros_messages as ros
+from floorcast_plugins._depth_images import Camera, moving
 from floorcast_plugins._ros_bag import is_recording, opened
 from floorcast_plugins._ros_transforms import TOLERANCE, WORLD_FRAMES, FrameTree, interpolate
 from floorplan_core.api import (
@@ -57,6 +60,7 @@ class Run:
     notes: tuple[str, ...]
     topics: tuple[str, ...] = ()  # of the whole recording
     types: Any = None  # rosbags' compiled definitions of the messages
+    camera: Camera | None = None  # of depth images
 
 
 @hookimpl
@@ -69,7 +73,7 @@ class RosbagReader:
 
     name = "ROS bag"
     suffixes: tuple[str, ...] = (".bag", ".mcap", ".db3")
-    description = "ROS 1 and ROS 2 bags, MCAP: PointCloud2 or LaserScan with TF or odometry"
+    description = "ROS 1 and ROS 2 bags, MCAP: PointCloud2, LaserScan or depth images with TF or odometry"
 
     def sniff(self, path: Path, head: bytes) -> float:
         """1 for the first bytes of a recording, or for a folder with ROS 2's metadata."""
@@ -117,35 +121,62 @@ def survey(path: Path, given: Trajectory | None, observer: Observer, wanted: str
                 message = reader.deserialize(raw, connection.msgtype)
                 _take(message, connection, tree, tracks)
         listed, types, topics = _listed(reader), reader.typestore, _topics(reader)
+        images = msgtype in (depth.IMAGE, depth.COMPRESSED)
+        camera = depth.camera_of(path.name, reader, topic) if images else None
     if not recorded:
         raise EmptyInput(f"The topic {topic} of {path.name} holds no messages.")
     frame = max(sorted(set(frames)), key=frames.count)
     placed = _place(path.name, frame, np.array(seconds), tree, tracks, given, listed)
     run = _run(path.name, topic, msgtype, np.array(recorded), np.array(seconds), placed, observer)
-    return replace(run, types=types, topics=topics)
+    run = replace(run, types=types, topics=topics, camera=camera)
+    return without_still_images(run) if images else run
+
+
+def without_still_images(run: Run) -> Run:
+    """The run without the images that were taken where the last one was."""
+    if run.poses is None:
+        return run
+    kept = moving(run.poses.T_world_sensor)
+    used = np.zeros_like(run.used)
+    used[np.flatnonzero(run.used)[kept]] = True
+    poses = Trajectory(run.poses.stamps[kept], run.poses.T_world_sensor[kept])
+    note = f"{len(kept):,} images that moved are used."
+    return replace(run, times=run.times[kept], used=used, poses=poses, notes=(*run.notes, note))
 
 
 def choose_topic(name: str, reader: Any, asked: str = "") -> tuple[str, str]:
-    """The topic that was asked for, else that with most clouds, else with most planar scans.
+    """The topic that was asked for, else that with most clouds, else planar scans, else depth images.
 
     Ties go to the first by name. :class:`InputError` lists the topics where none fits.
     """
+    usable = {c.topic: c.msgtype for c in reader.connections if c.msgtype in (ros.CLOUD, ros.SCAN)}
     if asked:
-        for c in reader.connections:
-            if c.topic == asked and c.msgtype in (ros.CLOUD, ros.SCAN):
-                return asked, c.msgtype
+        usable |= depth.depth_topics(reader)
+        if asked in usable:
+            return asked, usable[asked]
         raise InputError(
-            f"{name} holds no PointCloud2 and no LaserScan messages on the topic {asked!r} (input.topic); "
-            f"its topics: {_listed(reader)}."
+            f"{name} holds no PointCloud2, LaserScan or depth image messages on the topic {asked!r} "
+            f"(input.topic); its topics: {_listed(reader)}."
         )
+    counts = _message_counts(reader)
     for wanted in (ros.CLOUD, ros.SCAN):
-        counts: dict[str, int] = {}
-        for c in reader.connections:
-            if c.msgtype == wanted and c.msgcount > 0:
-                counts[c.topic] = counts.get(c.topic, 0) + c.msgcount
-        if counts:
-            return max(sorted(counts), key=lambda t: counts[t]), wanted
-    raise InputError(f"{name} holds no PointCloud2 and no LaserScan messages; its topics: {_listed(reader)}.")
+        topics = sorted(t for t, msgtype in usable.items() if msgtype == wanted and counts[t] > 0)
+        if topics:
+            return max(topics, key=lambda t: counts[t]), wanted
+    images = depth.depth_topics(reader)
+    if images:
+        topic = max(sorted(images), key=lambda t: counts[t])
+        return topic, images[topic]
+    raise InputError(
+        f"{name} holds no PointCloud2, LaserScan or depth image messages; its topics: {_listed(reader)}."
+    )
+
+
+def _message_counts(reader: Any) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    for c in reader.connections:
+        counts[c.topic] = counts.get(c.topic, 0) + int(c.msgcount)
+    return counts
 
 
 def _listed(reader: Any) -> str:
@@ -293,7 +324,11 @@ def _chunks(path: Path, run: Run, observer: Observer) -> Iterator[RawChunk]:
 
 def _scan(name: str, reader: Any, connection: Any, raw: bytes, run: Run, row: int) -> RawChunk:
     with damaged(name, "ROS recording"):
-        points = ros.points_of(reader.deserialize(raw, connection.msgtype), run.msgtype)
+        message = reader.deserialize(raw, connection.msgtype)
+        if run.camera is None:
+            points = ros.points_of(message, run.msgtype)
+        else:
+            points = depth.depth_points(message, run.msgtype, run.camera)
     if run.poses is None:
         return RawChunk(points)
     ids = np.full(len(points), row, dtype=np.int32)
