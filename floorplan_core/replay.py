@@ -19,6 +19,7 @@ class Interval:
     end: float  # seconds since the first pose
     path_length: float  # metres from the first pose to the last one of the interval
     chunks: Iterator[PointChunk]  # to be used before the next interval is asked for
+    trajectory: Trajectory  # to which the scan ids of the chunks refer, local frame
 
 
 def intervals(reconstruction: Reconstruction, every: float) -> Iterator[Interval]:
@@ -27,15 +28,21 @@ def intervals(reconstruction: Reconstruction, every: float) -> Iterator[Interval
     Raises :class:`InputError` where the survey does not say when its points were seen.
     """
     trajectory = _trajectory(reconstruction)
-    stamps = trajectory.stamps - trajectory.stamps[0]
-    number = np.maximum(np.ceil(stamps / every) - 1, 0).astype(
-        np.int64
-    )  # a scan on the clock ends its interval
+    number = interval_numbers(trajectory.stamps, every)
+    duration = float(trajectory.stamps[-1] - trajectory.stamps[0])
     lengths = path_lengths(trajectory)
     for index, group in groupby(_pieces(reconstruction, number), key=lambda piece: piece[0]):
-        end = min((index + 1) * every, float(stamps[-1]))
+        end = min((index + 1) * every, duration)
         last = int(np.searchsorted(number, index, side="right")) - 1
-        yield Interval(end, float(lengths[last]), (chunk for _, chunk in group))
+        yield Interval(end, float(lengths[last]), (chunk for _, chunk in group), trajectory)
+
+
+def interval_numbers(
+    stamps: np.ndarray[tuple[int], np.dtype[np.float64]], every: float
+) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """The interval of each stamp, from 0; a scan on the clock ends its interval."""
+    number = np.ceil((stamps - stamps[0]) / every) - 1
+    return np.asarray(np.maximum(number, 0), dtype=np.int64)
 
 
 def path_lengths(trajectory: Trajectory) -> np.ndarray[tuple[int], np.dtype[np.float64]]:

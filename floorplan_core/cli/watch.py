@@ -1,9 +1,9 @@
-"""``floorcast watch``: the online job, a run replayed with a plan every few seconds of run time."""
+"""``floorcast watch``: the online job: a run replayed or followed, a plan every few seconds of it."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
@@ -25,6 +25,7 @@ from floorplan_core.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from floorplan_core.config import Config
     from floorplan_core.model import FloorPlan, Reconstruction
     from floorplan_core.pipeline import FloorPlanner
     from floorplan_core.replay import Interval
@@ -41,6 +42,15 @@ def watch(
     every: Annotated[
         float, typer.Option("--every", metavar="SECONDS", min=0.1, help="Run time between two plans.")
     ] = 20.0,
+    follow: Annotated[
+        float | None,
+        typer.Option(
+            "--follow",
+            metavar="SECONDS",
+            min=1.0,
+            help="Follow a folder of scans that still grows, until nothing new came for so long.",
+        ),
+    ] = None,
     trajectory: TrajectoryFile = None,
     storey: StoreyNumber = None,
     config: ConfigFile = None,
@@ -49,8 +59,8 @@ def watch(
     quiet: QuietFlag = False,
     debug: DebugFlag = False,
 ) -> None:
-    """Replay a run and write a numbered plan each interval, timeline.json and a film strip."""
-    from floorplan_core.cli.planning import announce_compilation, open_input
+    """Replay or follow a run and write a numbered plan each interval, timeline.json and a film strip."""
+    from floorplan_core.cli.planning import announce_compilation
     from floorplan_core.errors import NoPlanError
     from floorplan_core.files import output_folder
 
@@ -58,19 +68,47 @@ def watch(
     settings = resolve_config(config, set_)
     observer = console.observer(bars=False)  # a line for each interval instead
     with output_folder(out):  # made now, and removed again if nothing comes of it
-        run = open_input(survey, trajectory, settings, observer)
+        run, intervals = open_run(survey, trajectory, every, follow, settings, observer)
         announce_compilation(observer)
         from floorplan_core.pipeline import FloorPlanner  # after opening: bad input is answered at once
 
         recorder = Recorder(out, observer, storey or 0)
         planner = FloorPlanner(settings, observer, run.name, run.local_frame)
-        recorder.record(run, planner, every)
+        recorder.record(intervals, planner)
         if not recorder.film.frames():
             raise NoPlanError(_never(recorder.timeline, run))
         recorder.film.write(out / FILM_STRIP)
     plans = sum(entry["plan"] is not None for entry in recorder.timeline)
     data = {"out": str(out), "plans": plans, "timeline": recorder.timeline, "warnings": observer.warnings}
     console.result(data, f"Wrote {plans} plans, {TIMELINE} and {FILM_STRIP} into {out}.")
+
+
+def open_run(
+    survey: list[Path],
+    trajectory: Path | None,
+    every: float,
+    patience: float | None,
+    config: Config,
+    observer: CommandObserver,
+) -> tuple[Reconstruction, Iterator[Interval]]:
+    """The run and its intervals: replayed, or followed with so much ``patience`` (seconds)."""
+    from floorplan_core.cli.planning import open_input
+    from floorplan_core.replay import intervals
+
+    if patience is None:
+        run = open_input(survey, trajectory, config, observer)
+        return run, intervals(run, every)
+    from floorplan_core.errors import UsageError
+    from floorplan_core.following import GrowingFolder, follow
+
+    if len(survey) != 1:
+        raise UsageError("--follow is for one folder of scans that grows.")
+    observer.console.message(f"Following {survey[0]} until nothing new came for {patience:g} s.")
+    growing = GrowingFolder(survey[0], trajectory, patience, observer)
+    run, following = follow(growing, every, config.input, observer)
+    for sentence in run.assumptions:
+        observer.console.message(sentence)
+    return run, following
 
 
 class Recorder:
@@ -84,13 +122,11 @@ class Recorder:
         self._out, self._observer, self._storey = out, observer, storey
         self._exporters = {s: default_registry().exporter(Path(f"plan{s}")) for s in SUFFIXES}
 
-    def record(self, run: Reconstruction, planner: FloorPlanner, every: float) -> None:
+    def record(self, intervals: Iterator[Interval], planner: FloorPlanner) -> None:
         """Integrate and plan until the run is over."""
-        from floorplan_core.replay import intervals
-
-        for interval in intervals(run, every):
+        for interval in intervals:
             self._observer.check_cancelled()
-            seconds, plan, note = _advance(planner, interval, run, self._storey)
+            seconds, plan, note = _advance(planner, interval, self._storey)
             entry = timeline_entry(interval, plan, seconds, note)
             self.timeline.append(entry)
             if plan is not None:
@@ -121,14 +157,14 @@ class Recorder:
 
 
 def _advance(
-    planner: FloorPlanner, interval: Interval, run: Reconstruction, storey: int
+    planner: FloorPlanner, interval: Interval, storey: int
 ) -> tuple[tuple[float, float], FloorPlan | None, str]:
     """Integrate the interval and plan; returns the seconds of both, and the plan or why there is none yet."""
     from floorplan_core.errors import NoPlanError
 
     started = perf_counter()
     for chunk in interval.chunks:
-        planner.integrate_chunk(chunk, run.trajectory)
+        planner.integrate_chunk(chunk, interval.trajectory)
     integrated = perf_counter()
     plan, note = None, ""
     try:

@@ -30,7 +30,11 @@ def read_trajectory(path: Path, observer: Observer | None = None) -> Trajectory:
     pose; stamps that go back are reported through ``observer`` (the rows keep their order, because scan
     ids count rows) and held at the latest stamp before them.
     """
-    text = _text(path)
+    return parse_trajectory(path, trajectory_text(path), observer)
+
+
+def parse_trajectory(path: Path, text: str, observer: Observer | None = None) -> Trajectory:
+    """The same for the ``text`` of the file, or for as much of it as is there."""
     if (form := form_of(text)) != "tum":
         return read_form(path.name, text, form)
     rows = _rows(path, text)
@@ -69,7 +73,7 @@ def rotation_from_quaternion(q: Float) -> Float:
     return np.moveaxis(np.array(rows), -1, 0)
 
 
-def _text(path: Path) -> str:
+def trajectory_text(path: Path) -> str:
     """The whole file; :class:`InputError` where it is too large, unreadable or no text."""
     try:
         if path.stat().st_size > MAX_BYTES:
