@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.masks import widened
 from floorplan_core.model import (
     FREE,
     OCCUPIED,
@@ -302,11 +303,7 @@ def _warnings(
 
 def _wall_points(boundary: Boundary, grid: OccupancyGrid) -> WallPoints:
     """The occupied cells beside free ones, with the facing of the boundary piece that they belong to."""
-    import cv2
-
-    free = (grid.states == FREE).astype(np.uint8)
-    near = cv2.dilate(free, np.ones((3, 3), dtype=np.uint8)).astype(bool)
-    iy, ix = np.nonzero(near & (grid.states == OCCUPIED))
+    iy, ix = np.nonzero(widened(grid.states == FREE) & (grid.states == OCCUPIED))
     xy = grid.origin + grid.cell * (np.column_stack([ix, iy]) + 0.5)
     facing = np.full(grid.states.shape, -1, dtype=np.int8)
     for k in np.flatnonzero(boundary.wall > boundary.open):

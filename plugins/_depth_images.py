@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import struct
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
-from floorplan_core.api import InputError, import_library
+from floorplan_core.api import InputError
 
 Float = NDArray[np.float64]
 MAX_PIXELS = 1 << 24  # of an image: four times the largest depth camera
@@ -39,16 +41,15 @@ def decode_depth(data: bytes, name: str) -> Any:
     width, height = struct.unpack(">II", data[16:24])
     if not 0 < width * height <= MAX_PIXELS:
         raise InputError(f"The depth image {name} claims {width} x {height} pixels; it is damaged.")
-    cv2 = import_library("cv2", "opencv-python-headless", "depth images")
     try:
-        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error as error:
+        with Image.open(io.BytesIO(data), formats=["PNG"]) as opened:
+            image = np.asarray(opened)
+    except (OSError, SyntaxError, ValueError, EOFError, struct.error) as error:
         raise InputError(f"The depth image {name} is damaged.") from error
-    if image is None or image.ndim != 2 or image.dtype != np.uint16:
-        what = (
-            "is damaged" if image is None else f"has {image.dtype} pixels of shape {image.shape}, not depth"
+    if image.ndim != 2 or image.dtype != np.uint16:
+        raise InputError(
+            f"The depth image {name} has {image.dtype} pixels of shape {image.shape}, not depth."
         )
-        raise InputError(f"The depth image {name} {what}.")
     return image
 
 

@@ -85,7 +85,9 @@ def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
     """Shapely MultiPolygon that is the union of the True cells: one valid polygon per 4-connected patch."""
     if not mask.any():
         return shapely.MultiPolygon()
-    labels = np.pad(_label(mask), 1)
+    from floorplan_core.geometry.masks import label_patches
+
+    labels = np.pad(label_patches(mask)[0], 1)
     ix, iy, left_is_north = _corners(labels)
     rings, homes = [], []
     for ring in _rings(ix, iy, left_is_north):
@@ -93,13 +95,6 @@ def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
         rings.append(shapely.LinearRing(np.column_stack([x, y]) * cell + origin))
         homes.append(_home(labels, x, y))
     return shapely.MultiPolygon(_assemble(rings, homes))
-
-
-def _label(mask: Bool) -> NDArray[np.int32]:
-    """4-connected patches of ``mask``, numbered from 1 in row order."""
-    from scipy.ndimage import label
-
-    return np.asarray(label(mask)[0], dtype=np.int32)
 
 
 def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:

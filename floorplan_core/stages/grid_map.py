@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config, FrameConfig, MapsConfig
 from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.borders import find_borders, simplified, smallest_box
+from floorplan_core.geometry.masks import label_patches, patch_boxes
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, GridMap, ManhattanFrame, OccupancyGrid
 from floorplan_core.stages import manhattan_frame as frames
 
@@ -72,10 +74,8 @@ def find_floor(grid_map: GridMap, config: Config) -> MapFloor:
 
 def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, float]:
     """Yaw of the walls in the map's axes, radians; the share of boundary behind it; metres of boundary."""
-    import cv2
-
-    contours, _ = cv2.findContours(free.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
-    edges = np.concatenate([np.zeros((0, 2)), *(_straight_edges(c) for c in contours)])
+    rings = [border.cells for border in find_borders(free)]
+    edges = np.concatenate([np.zeros((0, 2)), *(_straight_edges(ring) for ring in rings)])
     length = np.hypot(edges[:, 0], edges[:, 1])
     angle = np.arctan2(edges[:, 1], edges[:, 0])
     metres = float(length.sum() * cell)
@@ -84,23 +84,21 @@ def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, fl
     if config.yaw_deg is not None:
         yaw = float(frames._wrap(math.radians(config.yaw_deg)))
     else:
-        yaw = _sharpened(contours, frames._strongest_direction(angle, length), config)
+        yaw = _sharpened(rings, frames._strongest_direction(angle, length), config)
     near = np.abs(frames._wrap(angle - yaw)) < math.radians(config.tolerance_deg)
     return (0.0 if abs(yaw) < _EXACT else yaw), float(length[near].sum() / length.sum()), metres
 
 
-def _straight_edges(contour: NDArray[np.int32]) -> Float:
+def _straight_edges(cells: NDArray[np.int32]) -> Float:
     """(N, 2) vectors of the straight stretches of one boundary, cells."""
-    import cv2
-
-    ring = cv2.approxPolyDP(contour, _SMOOTH, True)[:, 0].astype(np.float64)
+    ring = simplified(cells, _SMOOTH)
     edges = np.roll(ring, -1, axis=0) - ring
     return np.asarray(edges[np.hypot(edges[:, 0], edges[:, 1]) >= _LEAST_EDGE])
 
 
-def _sharpened(contours: Sequence[NDArray[np.int32]], coarse: float, config: FrameConfig) -> float:
+def _sharpened(borders: Sequence[NDArray[np.int32]], coarse: float, config: FrameConfig) -> float:
     """The yaw around ``coarse`` under which the boundary cells, projected along their walls, are sharpest."""
-    rings = [c[:, 0].astype(np.float64) for c in contours if len(c) > 4 * _BESIDE]
+    rings = [b.astype(np.float64) for b in borders if len(b) > 4 * _BESIDE]
     if not rings:
         return coarse
     xy = np.concatenate(rings)
@@ -149,15 +147,10 @@ def _paint_walls(out: NDArray[np.uint8], walls: Bool, turn: Float, low: Float) -
 
 def find_furniture(states: NDArray[np.uint8], cell: float, config: MapsConfig) -> Bool:
     """(ny, nx) isolated objects that are too small or too compact to be walls."""
-    import cv2
-
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        (states != FREE).astype(np.uint8), connectivity=8
-    )
+    labels, count = label_patches(states != FREE, connectivity=8)
     out = np.zeros(states.shape, dtype=bool)
     ny, nx = states.shape
-    for k in range(1, count):
-        x, y, w, h = (int(v) for v in stats[k, :4])
+    for k, (x, y, w, h) in enumerate(patch_boxes(labels, count).tolist(), start=1):
         if max(w, h) * cell > config.furniture_size * 1.2 or x == 0 or y == 0 or x + w == nx or y + h == ny:
             continue
         mine = labels[y : y + h, x : x + w] == k
@@ -168,10 +161,7 @@ def find_furniture(states: NDArray[np.uint8], cell: float, config: MapsConfig) -
 
 def _is_furniture(mask: Bool, cell: float, config: MapsConfig) -> bool:
     """By the sides of the smallest box around an object, in any direction."""
-    import cv2
-
-    points = np.argwhere(mask)[:, ::-1].astype(np.float32)
-    short, long = sorted((float(v) + 1) * cell for v in cv2.minAreaRect(points)[1])
+    short, long = ((side + 1) * cell for side in smallest_box(np.argwhere(mask).astype(np.float64)))
     if long < config.leg_size:
         return True
     return long < config.furniture_size and long < config.furniture_ratio * short

@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.masks import opened
 from floorplan_core.geometry.raster import cells_to_polygon, polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import OCCUPIED, OccupancyGrid, Region, RegionSide
@@ -22,7 +23,6 @@ Bool = NDArray[np.bool_]
 Float = NDArray[np.float64]
 
 _SIMPLE = 1.5  # cells that a simplified outline may deviate
-_WHISKER = 3  # cells: parts of a space narrower than this are noise
 _LEAST_HOLE = 0.25  # m2: smaller holes are no walls
 _WALL_REACH = 3  # cells beyond a side in which its wall is looked for
 _LONG = 0.5  # m: the direction of shorter sides says nothing
@@ -33,11 +33,7 @@ _MOVE = 0.15  # m that a corner may move when its sides are straightened
 
 def outline(space: Bool, grid: OccupancyGrid) -> Any:
     """Shapely polygon around a space, its sides along the axes where they nearly are; None if empty."""
-    import cv2
-
-    kernel = np.ones((_WHISKER, _WHISKER), dtype=np.uint8)
-    opened = cv2.morphologyEx(space.astype(np.uint8), cv2.MORPH_OPEN, kernel).astype(bool)
-    parts = polygons_of(cells_to_polygon(opened, grid.origin, grid.cell))
+    parts = polygons_of(cells_to_polygon(opened(space), grid.origin, grid.cell))  # narrower parts are noise
     if not parts:
         return None
     holes = [h for h in parts[0].interiors if shapely.Polygon(h).area >= _LEAST_HOLE]

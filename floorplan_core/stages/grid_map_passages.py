@@ -23,6 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import MapsConfig
+from floorplan_core.geometry.borders import find_borders, simplified
+from floorplan_core.geometry.masks import distance_to_gap, label_patches, line_cells
 from floorplan_core.stages.grid_map_chords import hall_ahead, in_sight, march, opening, wall_ahead
 
 Float = NDArray[np.float64]
@@ -79,7 +81,7 @@ def find_passages(floor: Bool, cell: float, config: MapsConfig) -> tuple[tuple[P
         (PASSAGE, config.max_passage, config.passage_wall),
         (MOUTH, config.max_mouth, config.passage_wall),
     ):
-        gap = _distance(cut)
+        gap = distance_to_gap(cut)
         for k in map(int, np.flatnonzero((chords.wall >= share) & (chords.length <= longest / cell))):
             width = _parts(chords, k, kind, cut, gap, cell, config)
             if width is not None:
@@ -90,29 +92,18 @@ def find_passages(floor: Bool, cell: float, config: MapsConfig) -> tuple[tuple[P
 
 def label_spaces(cut: Bool, cell: float, config: MapsConfig) -> Labels:
     """(ny, nx) 4-connected spaces, numbered from 1 in row order; those below ``min_space`` are 0."""
-    import cv2
-
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(cut.astype(np.uint8), connectivity=4)
-    large = stats[:, cv2.CC_STAT_AREA] * cell**2 >= config.min_space
+    labels, count = label_patches(cut)
+    large = np.bincount(labels.ravel(), minlength=count + 1) * cell**2 >= config.min_space
     large[0] = False
-    number = np.zeros(count, dtype=np.int32)
+    number = np.zeros(count + 1, dtype=np.int32)
     number[large] = np.arange(1, np.count_nonzero(large) + 1)
     return np.asarray(number[labels], dtype=np.int32)
 
 
-def _distance(mask: Bool) -> Float:
-    """(ny, nx) cells to the next False cell."""
-    import cv2
-
-    return np.asarray(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5), dtype=np.float64)
-
-
 def _draw(cut: Bool, ends: Float) -> None:
     """Take out the cells of a chord; a 4-connected line stops rays of any direction, too."""
-    import cv2
-
     x0, y0, x1, y1 = (round(float(v)) for v in ends)
-    cv2.line(cut.view(np.uint8), (x0, y0), (x1, y1), 0, 1, cv2.LINE_4)
+    cut[line_cells(x0, y0, x1, y1)] = False
 
 
 def _candidates(floor: Bool, cell: float, config: MapsConfig) -> _Chords:
@@ -131,13 +122,7 @@ def _candidates(floor: Bool, cell: float, config: MapsConfig) -> _Chords:
 
 def _wall_ends(floor: Bool) -> Float:
     """(N, 8) reflex corners: x, y, then direction and length of each of its two walls, towards the corner."""
-    import cv2
-
-    contours, tree = cv2.findContours(floor.astype(np.uint8), cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
-    rows = [
-        _reflex(cv2.approxPolyDP(contour, _SMOOTH, True)[:, 0].astype(np.float64), tree[0][k][3] >= 0)
-        for k, contour in enumerate(contours)
-    ]
+    rows = [_reflex(simplified(border.cells, _SMOOTH), border.hole) for border in find_borders(floor)]
     return np.concatenate([np.zeros((0, 8)), *rows])
 
 
@@ -187,7 +172,7 @@ def _prolonged(floor: Bool, corners: Float, cell: float, least: float, most: flo
 
 def _flanks(floor: Bool, ends: Float, length: Float, cell: float) -> Float:
     """(K, 2) cells of wall in line beyond the two ends of each chord."""
-    gap, depth = _distance(floor), _distance(~floor)
+    gap, depth = distance_to_gap(floor), distance_to_gap(~floor)
     reach = np.array([_LOOK / cell, _FACE, _INSIDE])
     out = np.zeros((len(ends), 2))
     for k, (x0, y0, x1, y1) in enumerate(ends):
@@ -250,7 +235,7 @@ def _heal(
     found: Sequence[Passage], floor: Bool, cut: Bool, cell: float, config: MapsConfig
 ) -> tuple[tuple[Passage, ...], Labels]:
     """Take back what parts nothing, or two pieces of one corridor."""
-    gap, labels = _distance(cut), label_spaces(cut, cell, config)
+    gap, labels = distance_to_gap(cut), label_spaces(cut, cell, config)
     radius = np.zeros(int(labels.max()) + 1)
     np.maximum.at(radius, labels, gap)
     radius[0] = np.inf

@@ -20,6 +20,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.config import Config
+from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import OCCUPIED, Facing, LayoutPlane, LayoutSegment, OccupancyGrid
 from floorplan_core.stages.model_selection import pierce_intervals
 
@@ -82,8 +83,6 @@ def find_boundary(spaces: Labels, floor: Bool, grid: OccupancyGrid) -> Boundary:
 
 def _pieces(facing: Facing, spaces: Labels, floor: Bool, grid: OccupancyGrid) -> Boundary:
     """The pieces of one facing."""
-    import cv2
-
     solid_map = grid.states == OCCUPIED
     turn = facing.axis == 1  # rows then run along the wall
     label = spaces.T if turn else spaces
@@ -92,7 +91,7 @@ def _pieces(facing: Facing, spaces: Labels, floor: Bool, grid: OccupancyGrid) ->
     edge = (label > 0) & (beyond != label)
     along, across = np.nonzero(edge)
     mine = label[along, across]
-    chain = cv2.connectedComponents(np.ascontiguousarray(edge, dtype=np.uint8), connectivity=8)[1]
+    chain = label_patches(edge, connectivity=8)[0]
     against = _against(along, across, facing.sign, ground, solid)
     order = np.lexsort((across, along, mine, chain[along, across]))
     along, across, mine, against = along[order], across[order], mine[order], against[order]

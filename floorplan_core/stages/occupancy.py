@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import OccupancyConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.columns import LEVEL, height_mask
+from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
 from floorplan_core.stages.guessed_viewpoints import seen_from_the_middle
@@ -78,11 +79,8 @@ def _indoors(
     Inside is where the sensor was, what lies under ceiling, and what a door joins to the inside over seen
     floor.
     """
-    import cv2
-
-    count, label = cv2.connectedComponents(
-        (free & ~_wall_cells(evidence, planes)).astype(np.uint8), connectivity=4
-    )
+    label, patches = label_patches(free & ~_wall_cells(evidence, planes))
+    count = patches + 1  # with what is in none
     area = np.bincount(label.ravel(), minlength=count)
     large = area * evidence.cell**2 >= config.min_component
     visited = np.zeros(count, dtype=bool)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 
-import cv2
 import numpy as np
 import pytest
+from PIL import Image
 from plugin_files import opened, refusal, whole
 from scipy.spatial.transform import Rotation
 
@@ -43,7 +43,7 @@ def write_images(folder, names, scale):
     folder.mkdir(parents=True, exist_ok=True)
     for name, T in zip(names, camera_poses(), strict=True):
         depth = np.round(render(T) * scale).astype(np.uint16)
-        cv2.imwrite(str(folder / name), depth)
+        Image.fromarray(depth).save(folder / name)
 
 
 def write_matrix(path, T):
@@ -190,7 +190,7 @@ def test_images_that_lie(tmp_path, content, says):
 
 def test_colour_is_no_depth(tmp_path):
     root = write_scannet(tmp_path / "run")
-    cv2.imwrite(str(root / "depth" / "3.png"), np.zeros((HEIGHT, WIDTH, 3), np.uint8))
+    Image.fromarray(np.zeros((HEIGHT, WIDTH, 3), np.uint8)).save(root / "depth" / "3.png")
     assert "not depth" in refusal(root)
 
 

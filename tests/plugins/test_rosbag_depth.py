@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import io
 import struct
 
-import cv2
 import numpy as np
 import pytest
+from PIL import Image
 from plugin_files import opened, refusal, survives, whole
 from test_rgbd import COUNT, CX, CY, HEIGHT, SIZE, WIDTH, F, camera_poses, render
 from test_rosbag import START, Messages, mount, write_recording
 
 QUANTISED = (10_000.0, 5.0)  # of inverse depth: a and b in depth = a / (value - b)
+
+
+def png_bytes(pixels):
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, format="PNG")
+    return file.getvalue()
 
 
 class DepthMessages:
@@ -50,7 +57,7 @@ class DepthMessages:
     def compressed(self, metres, seconds, encoding):
         a, b = QUANTISED
         pixels = metres * 1000 if encoding == "16UC1" else a / metres + b
-        png = cv2.imencode(".png", np.round(pixels).astype(np.uint16))[1].tobytes()
+        png = png_bytes(np.round(pixels).astype(np.uint16))
         data = struct.pack("<iff", 0, a, b) + png
         return self.m.t["sensor_msgs/msg/CompressedImage"](
             self.m.header(seconds, "optical"),
