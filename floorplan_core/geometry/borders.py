@@ -109,7 +109,7 @@ def _append(cells: Int, used: int, x: int, y: int) -> Int:
 def simplified(ring: NDArray[np.generic], tolerance: float) -> Float:
     """(M, 2) corners of a ring such that none of its points deviates more than about ``tolerance``."""
     points: Float = np.ascontiguousarray(ring, dtype=np.float64)
-    if len(points) < 3:
+    if len(points) < 2:
         return points
     kept = np.flatnonzero(_corners(points, tolerance))
     return np.asarray(points[kept[_not_flat(points[kept], tolerance)]])
@@ -124,7 +124,7 @@ def _corners(points: Float, tolerance: float) -> Bool:
     for _ in range(_STARTS):
         a = b
         square = (points[:, 0] - points[a, 0]) ** 2 + (points[:, 1] - points[a, 1]) ** 2
-        b = int(np.argmax(square))
+        b = (a + int(np.argmax(np.roll(square, -a)))) % n  # of equally far ones the next along the ring
     if (points[a, 0] - points[b, 0]) ** 2 + (points[a, 1] - points[b, 1]) ** 2 <= tolerance**2:
         keep[a] = True
         return keep
@@ -132,14 +132,12 @@ def _corners(points: Float, tolerance: float) -> Bool:
     stack = [(a, b if b > a else b + n), (b, a if a > b else a + n)]
     while len(stack) > 0:
         low, high = stack.pop()
-        ax, ay = points[low % n]
-        ex, ey = points[high % n, 0] - ax, points[high % n, 1] - ay
-        most, at, length = 0.0, -1, np.hypot(ex, ey)
+        most, at = tolerance**2, -1
         for k in range(low + 1, high):
-            off = abs((points[k % n, 1] - ay) * ex - (points[k % n, 0] - ax) * ey)
+            off = _square_off(points[k % n], points[low % n], points[high % n])
             if off > most:
                 most, at = off, k
-        if at >= 0 and most > tolerance * length:
+        if at >= 0:
             keep[at % n] = True
             stack.append((low, at))
             stack.append((at, high))
@@ -147,24 +145,36 @@ def _corners(points: Float, tolerance: float) -> Bool:
 
 
 @njit(cache=True, nogil=True)
+def _square_off(point: Float, a: Float, b: Float) -> float:
+    """Square of the distance between a point and the segment from ``a`` to ``b``."""
+    ex, ey = b[0] - a[0], b[1] - a[1]
+    px, py = point[0] - a[0], point[1] - a[1]
+    along = px * ex + py * ey
+    if along <= 0:
+        return float(px**2 + py**2)
+    length = ex**2 + ey**2
+    if along >= length:
+        return float((px - ex) ** 2 + (py - ey) ** 2)
+    return float((py * ex - px * ey) ** 2 / length)
+
+
+@njit(cache=True, nogil=True)
 def _not_flat(points: Float, tolerance: float) -> Bool:
-    """(M,) False at corners that hardly leave the line between the one kept before and the one after."""
+    """(M,) False at corners that hardly leave the line between their neighbours; never two in a row."""
     n = len(points)
     keep = np.ones(n, np.bool_)
-    left, last = n, n - 1
-    for k in range(n):
-        if left <= 2:
-            break
+    left, last, k = n, n - 1, 0
+    while k < n and left > 2:
         after = (k + 1) % n
         ex, ey = points[after, 0] - points[last, 0], points[after, 1] - points[last, 1]
         mx, my = points[k, 0] - points[last, 0], points[k, 1] - points[last, 1]
         ahead = mx * (points[after, 0] - points[k, 0]) + my * (points[after, 1] - points[k, 1])
-        off = mx * ey - my * ex
-        if off**2 <= _FLAT * tolerance**2 * (ex**2 + ey**2) and (ex != 0 or ey != 0) and ahead >= 0:
+        slanting = ex != 0 and ey != 0  # along an axis the subdivision leaves nothing of this kind
+        if slanting and ahead >= 0 and (mx * ey - my * ex) ** 2 <= _FLAT * tolerance**2 * (ex**2 + ey**2):
             keep[k] = False
-            left -= 1
+            left, last, k = left - 1, after, k + 2
         else:
-            last = k
+            last, k = k, k + 1
     return keep
 
 
