@@ -1,8 +1,9 @@
 """The edges of doors from the points themselves: widths that do not know the histogram's bins.
 
-Inside the thickness of a wall the only surfaces are the reveals of its openings: they face each other across
-the door, and their median is its edge. Where none was seen, the edge is where the wall's face ends. The
-lowest surface above the passage is the lintel. Cost: one pass over the surfels.
+Along the wall and through its whole thickness nothing stands in a door: it ends where surfaces begin over
+most of the height of a body. The reveals stand there, more surface than the faces beyond; their median is the
+edge. Where no reveal was seen, the edge is where the wall's face ends. The lowest surface above the passage is
+the lintel. Cost: one pass over the surfels.
 """
 
 from __future__ import annotations
@@ -15,16 +16,25 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.columns import LEVEL
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 
 Float = NDArray[np.float64]
 
-_AROUND = 0.25  # m beside an edge in which its reveal is looked for
-_SKIN = 0.025  # m below the face of a wall where its own noise ends
+_AROUND = 0.4  # m beside an aperture in which the wall is looked for
+_SKIN = 0.03  # m about the face of a wall: its own noise
 _ASSUMED = 0.12  # m, thickness where only one face was seen
 _BODY = (0.25, 1.85)  # m above the floor, between skirting and lintel
 _ENOUGH = 6  # surfels that make a reveal
+_BIN = 0.02  # m along the wall
+_LEVELS = 16  # parts of the height of a body
+_STANDS = 0.4  # of them seen where wall begins: less are stray points, or things beside the wall
+_DENSE, _BEST = 0.4, 80  # of the points in this percentile of the bins: fewer are no wall
+_LEAST = 0.4  # m, the narrowest clear width that is believed
+_SOFT = 0.1  # m of wall from where it begins, in which its reveal stands
+_PEAK = 0.03  # m over which a reveal is spread
+_SHARP = 1.5  # times as many surfels in a reveal as in the faces of the wall beyond it
 
 
 def refine_edges(
@@ -35,8 +45,19 @@ def refine_edges(
     facing = {p.id: p.facing for p in planes}
     signs = [0 if d.thickness > 0 else facing[d.planes[0]].sign for d in doors]
     return tuple(
-        _refined(door, sign, evidence.xyz[rows]) for door, sign, rows in zip(doors, signs, near, strict=True)
+        _refined(door, sign, evidence.xyz[rows], evidence.count[rows], _is_solid(evidence, rows))
+        for door, sign, rows in zip(doors, signs, near, strict=True)
     )
+
+
+def _is_solid(evidence: Evidence, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(R,) False for surfels where rays passed: range sensors mix what lies before and behind an edge."""
+    xyz = evidence.xyz[rows]
+    ix, iy = ((xyz[:, :2] - evidence.origin) / evidence.cell).astype(int).T
+    inside = (ix >= 0) & (iy >= 0) & (ix < evidence.shape[1]) & (iy < evidence.shape[0])
+    level = np.clip(xyz[:, 2] / LEVEL, 0, 63).astype(np.uint64)
+    free = evidence.free[np.where(inside, iy, 0), np.where(inside, ix, 0)] >> level & np.uint64(1)
+    return ~inside | (free == 0)
 
 
 def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]:
@@ -82,26 +103,73 @@ def _collect(xyz, boxes, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
     return np.array(owner[1:]), np.array(index[1:])
 
 
-def _refined(door: Door, sign: int, xyz: Float) -> Door:
+def _refined(door: Door, sign: int, xyz: Float, count: NDArray[np.int32], solid: NDArray[np.bool_]) -> Door:
     u, v, z = xyz[:, door.axis] - door.offset, xyz[:, 1 - door.axis], xyz[:, 2]
     half = door.thickness / 2
     depth = (-half, half) if sign == 0 else (min(0.0, -sign * _ASSUMED), max(0.0, -sign * _ASSUMED))
-    within = (u > depth[0] + _SKIN) & (u < depth[1] - _SKIN)
-    body = (z > _BODY[0]) & (z < _BODY[1])
-    start = _reveal(v[within & body], door.start)
-    end = _reveal(v[within & body], door.end)
-    if end - start < 0.3:
-        start, end = door.start, door.end
+    body = solid & (z > _BODY[0]) & (z < _BODY[1])
+    wall = body & (u > depth[0] - _SKIN) & (u < depth[1] + _SKIN)
+    inner = v[body & (u > depth[0] + _SKIN) & (u < depth[1] - _SKIN)]
+    stands = _stands(v[wall] - door.start + _AROUND, z[wall], count[wall], _bins(door))
+    start, end = _clear_width(stands, inner, door.start, door.end)
     middle = (v > start + 0.08) & (v < end - 0.08) & (np.abs(u) < half + 0.05) & (z > _BODY[1])
     height = float(np.percentile(z[middle], 3)) if middle.sum() >= _ENOUGH else None
     return replace(door, start=start, end=end, height=height)
 
 
-def _reveal(v: Float, edge: float) -> float:
-    """The median of the densest 3 cm of the surfaces within reach of an edge; the edge if there are none."""
-    near = np.sort(v[np.abs(v - edge) < _AROUND])
+def _bins(door: Door) -> int:
+    """Bins along a door and what is around it."""
+    return round((door.width + 2 * _AROUND) / _BIN)
+
+
+def _clear_width(stands: NDArray[np.bool_], inner: Float, start: float, end: float) -> tuple[float, float]:
+    """Where wall begins on both sides of an aperture; its own edge where none was seen within reach.
+
+    :param stands: (B,) where wall stands, from ``_AROUND`` before ``start`` on.
+    :param inner: (N,) metres along the wall of the surfels between its faces.
+    """
+    empty = np.flatnonzero(np.diff(np.concatenate([[False], ~stands, [False]]).astype(np.int8)))
+    runs = start - _AROUND + _BIN * empty.reshape(-1, 2)
+    shared = np.minimum(runs[:, 1], end) - np.maximum(runs[:, 0], start)
+    if not len(runs) or shared.max() < _LEAST:
+        return start, end
+    low, high = runs[int(np.argmax(shared))]  # ties: the first
+    first, last = start - _AROUND, start - _AROUND + _BIN * len(stands)
+    low = start if low <= first else low - _jamb(low - inner, low - start)
+    high = end if high >= last - _BIN / 2 else high + _jamb(inner - high, end - high)
+    return (float(low), float(high)) if high - low > _LEAST else (start, end)
+
+
+def _stands(v: Float, z: Float, count: NDArray[np.int32], bins: int) -> NDArray[np.bool_]:
+    """(bins,) True where surfaces were seen over much of a body's height; ``v`` counts from the first."""
+    seen = np.zeros((bins + 1, _LEVELS), dtype=bool)
+    along = np.floor(v / _BIN).astype(int)
+    up = ((z - _BODY[0]) / (_BODY[1] - _BODY[0]) * _LEVELS).astype(int)
+    inside = (along >= 0) & (along < bins)
+    seen[along[inside], np.minimum(up[inside], _LEVELS - 1)] = True
+    near = seen[:-1] | seen[1:] | np.vstack([seen[:1], seen[:-2]])
+    levels = near.sum(axis=1)
+    return (levels >= _STANDS * _LEVELS) & _is_dense(along[inside], count[inside], bins)
+
+
+def _is_dense(along: NDArray[np.int64], count: NDArray[np.int32], bins: int) -> NDArray[np.bool_]:
+    """(bins,) True where about as many points lie as where the wall was seen best."""
+    points = np.convolve(np.bincount(along, weights=count, minlength=bins), np.ones(3), mode="same")
+    return np.asarray(points >= _DENSE * np.percentile(points, _BEST))
+
+
+def _jamb(depth: Float, edge: float) -> float:
+    """Metres from the first solid bin into the wall at which its reveal stands.
+
+    :param depth: (N,) metres of the surfels into the wall, from the side of the opening.
+    :param edge: where the aperture was thought to end; taken where no reveal, only faces were seen.
+    """
+    near = np.sort(depth[(depth > -_BIN) & (depth < _SOFT)])
     if len(near) < _ENOUGH:
-        return edge
-    count = np.searchsorted(near, near + 0.03) - np.arange(len(near))
+        return float(np.clip(edge, 0.0, _SOFT))
+    count = np.searchsorted(near, near + _PEAK) - np.arange(len(near))
     first = int(np.argmax(count))
-    return float(np.median(near[first : first + int(count[first])])) if count[first] >= _ENOUGH else edge
+    face = np.count_nonzero((depth > _SOFT) & (depth < 2 * _SOFT)) * _PEAK / _SOFT
+    if count[first] >= _ENOUGH and count[first] > _SHARP * face:
+        return float(np.median(near[first : first + int(count[first])]))
+    return float(np.clip(edge, 0.0, _SOFT))

@@ -21,6 +21,8 @@ from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from floorplan_core.stages.shut_doors import find_shut_doors
 
+_PASSABLE = 0.5  # m that two faces must have in common
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -108,11 +110,20 @@ def _merged(sure: Candidate, other: Candidate, both_faces: bool) -> Candidate:
     a, b = sure.door, other.door
     door = replace(a, planes=(*a.planes, *b.planes))
     if both_faces:
+        start, end = _shared_span(a, b)
         door = replace(
             door,
             offset=(a.offset + b.offset) / 2,
             thickness=max(a.thickness, abs(a.offset - b.offset)),
-            start=(a.start + b.start) / 2,
-            end=(a.end + b.end) / 2,
+            start=start,
+            end=end,
         )
     return Candidate(door, sure.measures.merged(other.measures, both_faces))
+
+
+def _shared_span(a: Door, b: Door) -> tuple[float, float]:
+    """What is open in both faces: a face that was hidden beside the door makes its aperture too wide."""
+    start, end = max(a.start, b.start), min(a.end, b.end)
+    if end - start < _PASSABLE:
+        return (a.start + b.start) / 2, (a.end + b.end) / 2
+    return start, end

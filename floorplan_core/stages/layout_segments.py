@@ -36,6 +36,8 @@ _SKIRTING = 0.2  # m above the floor below which nothing counts as wall
 _SKIN = 1  # cells before a surface that its own noise may fill
 _HIST = 60  # bins of 2.5 mm on each side of a segment, for its robust offset
 _HIST_BIN = 0.0025
+_BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
+_OTHER_FACE = 2  # levels of it that tell a wall from noise
 ALL_LEVELS = np.uint64((1 << 64) - 1)
 
 
@@ -370,15 +372,34 @@ def _is_structural(
 def _looked_over(
     evidence: Evidence, facing: Facing, rows: NDArray[np.int64], bits: NDArray[np.uint64], offset: float
 ) -> float:
-    """0 to 1: share of the rows where free space was seen just behind and above the surface."""
+    """0 to 1: share of the rows where free space was seen just behind and above the surface.
+
+    The farther of the two columns asked may lie on the other side of a thin wall: it counts only where the
+    wall's other face was not seen to go on above in between.
+    """
     a = facing.axis
     grid = evidence.free if a == 0 else evidence.free.T
     near = offset - facing.sign * np.array([0.5, 1.5]) * evidence.cell
     iu = np.clip(((near - evidence.origin[a]) / evidence.cell).astype(int), 0, grid.shape[1] - 1)
     iv = np.clip(rows // 2, 0, grid.shape[0] - 1)
-    free = grid[iv, iu[0]] | grid[iv, iu[1]]
     ceiling = evidence.frame.ceiling_z
     limit = 2.6 if ceiling is None else ceiling - evidence.frame.floor_z - 0.1
     top = np.floor(np.log2(np.maximum(bits, 1).astype(np.float64))).astype(np.uint64)
-    above = ALL_LEVELS << (top + np.uint64(2))
-    return float(((free & above & height_mask(0.5, limit)) != 0).mean())
+    above = (ALL_LEVELS << (top + np.uint64(2))) & height_mask(0.5, limit)
+    goes_on = count_bits(_surfaces_behind(evidence, facing, rows, offset) & above) >= _OTHER_FACE
+    free = grid[iv, iu[0]] | np.where(goes_on, np.uint64(0), grid[iv, iu[1]])
+    return float(((free & above) != 0).mean())
+
+
+def _surfaces_behind(
+    evidence: Evidence, facing: Facing, rows: NDArray[np.int64], offset: float
+) -> NDArray[np.uint64]:
+    """(R,) levels at which anything was hit within the thickness of a wall behind its face."""
+    a = facing.axis
+    hits = evidence.hits if a == 0 else evidence.hits.T
+    at = np.sort(offset - facing.sign * np.array(_BEHIND))
+    low, high = np.clip(np.floor((at - evidence.origin[a]) / evidence.fine).astype(int), 0, hits.shape[1] - 1)
+    levels: NDArray[np.uint64] = np.bitwise_or.reduce(
+        hits[np.clip(rows, 0, hits.shape[0] - 1), low : high + 1], axis=1
+    )
+    return levels

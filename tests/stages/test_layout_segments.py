@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from floorplan_core.model import Facing, LayoutPlane, LayoutSegment
-from tests.box_world import LINTEL, Run, room, rotation, run, stations, survey, two_rooms
+from tests.box_world import LINTEL, Run, Survey, room, rotation, run, stations, survey, two_rooms
 
 EXACT = 0.003  # m, at 1 cm of noise
 DOOR = (2.0, 2.9, LINTEL)
@@ -83,6 +83,16 @@ def test_cabinets_of_190_cm_are_no_structure(trajectory):
     assert any(s.facing == Facing.EAST and abs(s.offset - 0.6) < EXACT for s in low)
     assert any(s.facing == Facing.SOUTH and abs(s.offset - 4.4) < EXACT for s in low)
     assert all(s.evidence for s in low)
+
+
+def test_a_thin_wall_is_not_looked_over_from_the_room_behind_it():
+    """A camera that looks down sees one face to 1.6 m only; what is free above is the next room."""
+    places = [*stations(4, 5), *stations(4, 5, 4.1)]
+    given = survey(two_rooms(thick=0.1), places, rays=(200, 60))
+    x, _, z = given.points.T
+    seen = (given.scan_id >= 4) | (abs(x - 4) > 0.2) | (z < 1.6)
+    result = run(Survey(given.points[seen], given.scan_id[seen], given.poses, given.rotation))
+    assert any(abs(o - 4) < EXACT for o in _offsets(_segments(result), Facing.WEST))
 
 
 @SENSORS

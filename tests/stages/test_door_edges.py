@@ -1,0 +1,101 @@
+"""The edges of doors: reveals to a centimetre, whatever was thought before and whatever floats in between."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from floorplan_core.config import DoorsConfig
+from floorplan_core.model import Door, Facing, LayoutPlane, ManhattanFrame
+from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.door_edges import refine_edges
+from floorplan_core.stages.door_evidence import DoorMeasures
+from floorplan_core.stages.doors import Candidate, merge_faces
+
+EXACT = 0.015  # m
+START, END = 2.0, 2.9  # of the door
+NEAR, FAR = 4.0, 4.14  # the faces of its wall
+PLANES = (LayoutPlane("p1", Facing.WEST, NEAR), LayoutPlane("p2", Facing.EAST, FAR))
+
+
+def _grid(*axes: np.ndarray) -> np.ndarray:
+    return np.column_stack([m.ravel() for m in np.meshgrid(*axes)])
+
+
+def _wall(hidden: tuple[float, float] = (0.0, 0.0), reveals: bool = True) -> np.ndarray:
+    """Surfels of the wall; nothing of it is seen between the two coordinates ``hidden``."""
+    heights = np.arange(0.03, 2.0, 0.05)
+    along = np.concatenate([np.arange(0.5, START, 0.05), np.arange(END + 0.03, 4.5, 0.05)])
+    faces = _grid(np.array([NEAR, FAR]), along, heights)
+    faces = faces[(faces[:, 1] < hidden[0]) | (faces[:, 1] > hidden[1])]
+    jambs = _grid(np.arange(NEAR, FAR, 0.05), np.array([START, END]), heights)
+    return np.concatenate([faces, jambs]) if reveals else faces
+
+
+def _evidence(xyz: np.ndarray, noise: float = 0.005) -> Evidence:
+    rng = np.random.default_rng(3)
+    n, shape = len(xyz), (50, 50)
+    open_ = np.zeros(shape, dtype=np.uint64)
+    open_[round(START / 0.1) + 1 : round(END / 0.1) - 1] = ~np.uint64(0)
+    return Evidence(
+        frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 50.0, 0.0, 2.6),
+        xyz=xyz + rng.normal(0, noise, xyz.shape),
+        count=np.full(n, 8, dtype=np.int32),
+        spread=np.zeros((n, 2)),
+        view=np.zeros((n, 2)),
+        surfel=0.05,
+        origin=np.zeros(2),
+        fine=0.05,
+        hits=np.zeros((100, 100), dtype=np.uint64),
+        cell=0.1,
+        free=open_,
+        occupied=np.zeros(shape, dtype=np.uint64),
+        path=np.zeros((0, 2)),
+        inferred=False,
+        viewpoints=True,
+    )
+
+
+def _door(start: float, end: float) -> Door:
+    return Door("", ("p1", "p2"), 0, (NEAR + FAR) / 2, start, end, thickness=FAR - NEAR)
+
+
+@pytest.mark.parametrize("thought", [(2.0, 2.9), (1.9, 3.05), (2.15, 2.8), (1.75, 3.2)])
+@pytest.mark.parametrize("noise", [0.002, 0.01])
+def test_the_edges_are_where_the_reveals_stand(thought, noise):
+    (door,) = refine_edges([_door(*thought)], PLANES, _evidence(_wall(), noise))
+    assert (door.start, door.end) == pytest.approx((START, END), abs=EXACT)
+
+
+def test_a_wall_hidden_beside_a_door_does_not_widen_it():
+    (door,) = refine_edges([_door(1.55, 2.9)], PLANES, _evidence(_wall(hidden=(1.5, 2.0))))
+    assert (door.start, door.end) == pytest.approx((START, END), abs=EXACT)
+
+
+def test_points_that_float_in_the_opening_do_not_narrow_it():
+    """A range sensor that sees an edge and what is behind it at once gives points in between."""
+    rng = np.random.default_rng(1)
+    floating = rng.uniform((NEAR, START, 0.0), (FAR, START + 0.4, 2.0), (300, 3))
+    (door,) = refine_edges([_door(START, END)], PLANES, _evidence(np.concatenate([_wall(), floating])))
+    assert (door.start, door.end) == pytest.approx((START, END), abs=EXACT)
+
+
+def test_without_reveals_the_face_tells_the_edge():
+    (door,) = refine_edges([_door(1.98, 2.91)], PLANES, _evidence(_wall(reveals=False)))
+    assert (door.start, door.end) == pytest.approx((1.98, 2.91), abs=0.03)
+
+
+def test_where_nothing_was_seen_the_aperture_stays():
+    (door,) = refine_edges([_door(2.05, 2.85)], PLANES, _evidence(np.zeros((0, 3))))
+    assert (door.start, door.end) == (2.05, 2.85)
+
+
+def test_the_two_faces_share_what_is_open_in_both():
+    sure = DoorMeasures(1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9, 0.0)
+    one = Candidate(Door("", ("p1",), 0, NEAR, 2.0, 2.9), sure)
+    hidden = Candidate(replace(one.door, planes=("p2",), offset=FAR, start=0.9), sure)
+    (merged,) = merge_faces([one, hidden], PLANES, DoorsConfig())
+    assert (merged.door.start, merged.door.end) == (2.0, 2.9)
+    assert merged.door.thickness == pytest.approx(FAR - NEAR)
