@@ -2,8 +2,8 @@
 
 Along the wall and through its whole thickness nothing stands in a door: it ends where surfaces begin over
 most of the height of a body. The reveals stand there, more surface than the faces beyond; their median is the
-edge. Where no reveal was seen, the edge is where the wall's face ends. The lowest surface above the passage is
-the lintel. Cost: one pass over the surfels.
+edge. Where no reveal was seen, the edge is where the wall's face ends. The lowest surface above the passage
+is the lintel. Cost: one pass over the surfels.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _is_solid(evidence: Evidence, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
     inside = (ix >= 0) & (iy >= 0) & (ix < evidence.shape[1]) & (iy < evidence.shape[0])
     level = np.clip(xyz[:, 2] / LEVEL, 0, 63).astype(np.uint64)
     free = evidence.free[np.where(inside, iy, 0), np.where(inside, ix, 0)] >> level & np.uint64(1)
-    return ~inside | (free == 0)
+    return np.asarray(~inside | (free == 0))
 
 
 def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]:
@@ -149,7 +149,7 @@ def _stands(v: Float, z: Float, count: NDArray[np.int32], bins: int) -> NDArray[
     seen[along[inside], np.minimum(up[inside], _LEVELS - 1)] = True
     near = seen[:-1] | seen[1:] | np.vstack([seen[:1], seen[:-2]])
     levels = near.sum(axis=1)
-    return (levels >= _STANDS * _LEVELS) & _is_dense(along[inside], count[inside], bins)
+    return np.asarray(levels >= _STANDS * _LEVELS) & _is_dense(along[inside], count[inside], bins)
 
 
 def _is_dense(along: NDArray[np.int64], count: NDArray[np.int32], bins: int) -> NDArray[np.bool_]:
