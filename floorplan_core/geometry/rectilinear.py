@@ -32,10 +32,10 @@ def corners(ring: Float) -> Float:
         points = points[keep]
 
 
-def move_sides(ring: Float, target: Callable[[Float, Float], float]) -> Float:
+def move_sides(ring: Float, target: Callable[[list[float], list[float]], float]) -> Float:
     """(N, 2) corners with every side moved to the offset ``target(start, end)`` across its own direction."""
-    points = corners(ring)
-    out = points.copy()
+    kept = corners(ring)
+    points, out = kept.tolist(), kept.copy()
     for k in range(len(points)):
         a, b = points[k], points[(k + 1) % len(points)]
         across = 0 if abs(a[0] - b[0]) < _SAME else 1
@@ -58,6 +58,8 @@ def union_boxes(boxes: Float) -> Any:
     mask = np.zeros((len(ys), len(xs)), dtype=bool)
     for (x0, x1), (y0, y1) in zip(column.reshape(-1, 2), row.reshape(-1, 2), strict=True):
         mask[y0:y1, x0:x1] = True
+    if mask.all():  # most rooms
+        return shapely.MultiPolygon([_rectangle(xs[0], ys[0], xs[-1], ys[-1])])
 
     def place(index: Float) -> Float:
         cells = np.rint(index).astype(np.int64)
@@ -74,9 +76,34 @@ def open_polygon(polygon: Any, width: float) -> Any:
     """
     if width <= 0:
         return polygon
+    if (bounds := _as_rectangle(polygon)) is not None and _narrow_side(polygon) > 2 * width:
+        return _opened_rectangle(*bounds, width / 2)
     shrunk = shapely.difference(polygon, shapely.union_all(_borders(polygon, width / 2)))
     grown = shapely.union_all([shrunk, *_borders(shrunk, width / 2)])
     return shapely.set_precision(grown, _EXACT)
+
+
+def _as_rectangle(shape: Any) -> tuple[float, float, float, float] | None:
+    """x0, y0, x1, y1 of a polygon, or of a multi-polygon of one, that is a rectangle along the axes."""
+    if shapely.get_num_coordinates(shape) != 5 or shapely.get_num_geometries(shape) != 1:
+        return None
+    x0, y0, x1, y1 = shape.bounds
+    points = shapely.get_coordinates(shape)
+    square = np.isin(points[:, 0], (x0, x1)).all() and np.isin(points[:, 1], (y0, y1)).all()
+    moved = (points[1:] != points[:-1]).sum(axis=1)
+    return (x0, y0, x1, y1) if square and (moved == 1).all() else None
+
+
+def _opened_rectangle(x0: float, y0: float, x1: float, y1: float, half: float) -> Any:
+    """What is left of a rectangle after its opening: itself, to the last bits as the boxes would have it."""
+    x0, y0, x1, y1 = (x0 + half) - half, (y0 + half) - half, (x1 - half) + half, (y1 - half) + half
+    return shapely.set_precision(_rectangle(x0, y0, x1, y1, 1), _EXACT, mode="pointwise")
+
+
+def _rectangle(x0: float, y0: float, x1: float, y1: float, first: int = 0) -> Any:
+    """A rectangle, counter-clockwise from its ``first`` corner (0 is x0, y0)."""
+    around = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    return shapely.Polygon(around[first:] + around[:first])
 
 
 def close_polygon(shape: Any, width: float) -> Any:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.model import Door, LayoutPlane
+from floorplan_core.model import Door, Facing, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.doors import find_doors
 
@@ -44,9 +44,10 @@ def find_narrowings(
 ) -> tuple[Door, ...]:
     """Gaps up to ``config.max_opening`` between free ends of walls that were seen from both sides."""
     found: list[Door] = []
-    for near in planes:
-        for far in planes:
-            if near.facing.sign < 0 and far.facing == near.facing.opposite:
+    of = {facing: [p for p in planes if p.facing == facing] for facing in Facing}
+    for near in (p for p in planes if p.facing.sign < 0):
+        for far in of[near.facing.opposite]:
+            if 0.0 < far.offset - near.offset <= config.max_thickness:
                 found += _between(near, far, planes, [*doors, *found], config)
     return tuple(found)
 
@@ -58,10 +59,8 @@ def _between(
     doors: Sequence[Door],
     config: DoorsConfig,
 ) -> list[Door]:
-    """The narrowings of the wall between two faces; none where they are not one wall."""
+    """The narrowings of the wall between its two faces."""
     thickness = far.offset - near.offset
-    if not 0.0 < thickness <= config.max_thickness:
-        return []
     others = [q for q in planes if q.facing.axis != near.facing.axis]
     out: list[Door] = []
     for start, end in _gaps(near, others, config.max_opening):

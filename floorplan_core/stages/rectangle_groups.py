@@ -7,6 +7,7 @@ near a border.
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from floorplan_core.model import Door, LayoutPlane
 
 Float = NDArray[np.float64]
+Box = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 _OVERLAP = 0.3  # m on both sides: less is a shared border, not an overlap
 _PASSAGE = 0.6  # m of a shared border without wall or door, from which two rectangles are one region
@@ -50,27 +52,36 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
         label[:, None] != label
     )  # others touch and are one region anyway
     border = parted & (np.minimum(wide, high) > -_OVERLAP) & (np.maximum(wide, high) > _PASSAGE) & ~linked
-    bridges: dict[int, list[Float]] = {}
-    for i, j in np.argwhere(np.triu(border, 1)):
+    bridges: dict[int, list[Box]] = {}
+    boxes, by_offset = bounds.tolist(), {axis: _by_offset(rows) for axis, rows in walls.items()}
+    for i, j in np.argwhere(np.triu(border, 1)).tolist():
         axis = 0 if wide[i, j] < high[i, j] else 1
-        boxes = _open_border(bounds[i], bounds[j], axis, walls[axis])
-        if boxes:
+        joints = _open_border(boxes[i], boxes[j], axis, *by_offset[axis])
+        if joints:
             linked[i, j] = linked[j, i] = True
-            bridges.setdefault(int(i), []).extend(boxes)
+            bridges.setdefault(i, []).extend(joints)
     count, label = connected_components(csr_array(linked), directed=False)
     groups = [np.flatnonzero(label == k) for k in range(count)]
     return [(g, np.array([b for i in g for b in bridges.get(int(i), [])]).reshape(-1, 4)) for g in groups]
 
 
-def _open_border(a: Float, b: Float, axis: int, walls: Float) -> list[Float]:
+def _by_offset(walls: Float) -> tuple[list[float], list[tuple[float, float]]]:
+    """The offsets in order, and start and end of each."""
+    ordered = walls[np.argsort(walls[:, 0], kind="stable")]
+    return ordered[:, 0].tolist(), [(s, e) for s, e in ordered[:, 1:].tolist()]
+
+
+def _open_border(
+    a: list[float], b: list[float], axis: int, offsets: list[float], runs: list[tuple[float, float]]
+) -> list[Box]:
     """Boxes across the parts of the border of two rectangles that are not wall or door, if wide enough."""
     near = sorted((max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])))
     low, high = max(a[1 - axis], b[1 - axis]), min(a[3 - axis], b[3 - axis])
-    hit = walls[(walls[:, 0] > near[0] - _NEAR) & (walls[:, 0] < near[1] + _NEAR)]
+    hit = runs[bisect_right(offsets, near[0] - _NEAR) : bisect_left(offsets, near[1] + _NEAR)]
     at, boxes = low, []
-    for start, end in [*sorted((float(s), float(e)) for _, s, e in hit), (high, high)]:
-        if min(start, high) - at >= _PASSAGE:
-            v0, v1 = at, min(start, high)
-            boxes.append(np.array([near[0], v0, near[1], v1] if axis == 0 else [v0, near[0], v1, near[1]]))
+    for start, end in [*sorted(hit), (high, high)]:
+        v0, v1 = at, min(start, high)
+        if v1 - v0 >= _PASSAGE:
+            boxes.append((near[0], v0, near[1], v1) if axis == 0 else (v0, near[0], v1, near[1]))
         at = max(at, end)
     return boxes

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,7 @@ from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides
 from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, RegionSide
 
 Float = NDArray[np.float64]
+Corner = Sequence[float] | Float  # x, y; lists of plain floats are several times as fast
 
 _DEEPEST = 0.35  # m behind a side, where the back of its recesses lies
 _THICKEST = 0.45  # m between two faces that are one wall
@@ -20,6 +23,20 @@ _MOST, _TWO_SIGMA = 0.95, 1.96  # share of the points that a residual holds; in 
 _HALVINGS = 16  # of an interval under a metre: to a few hundredths of a millimetre
 _ON = 1e-4  # m between a side and the plane that it lies on
 _USUAL = 0.12  # m, thickness of an inner wall where no wall was seen from both sides
+
+
+@dataclass(frozen=True)
+class Surfaces:
+    """What was seen of one facing: as it came, and in the order of the offsets."""
+
+    data: Float  # (K, 4) offset, start, end, residual; metres
+    offsets: list[float]
+    rows: list[tuple[float, float, float, float, str]]  # the same in that order, with the plane of each
+
+    def near(self, at: float, reach: float) -> list[tuple[float, float, float, float, str]]:
+        """The rows less than ``reach`` metres from an offset."""
+        first, last = bisect_left(self.offsets, at - 2 * reach), bisect_right(self.offsets, at + 2 * reach)
+        return [row for row in self.rows[first:last] if abs(row[0] - at) < reach]
 
 
 class WallSurfaces:
@@ -35,42 +52,47 @@ class WallSurfaces:
         for facing in Facing:
             mine = [s for s in segments if s.facing == facing and s.plane and s.plane not in refused]
             data = np.array([[s.offset, s.start, s.end, s.residual] for s in mine]).reshape(-1, 4)
-            self._table[facing] = (data, [s.plane for s in mine])
+            order = np.argsort(data[:, 0], kind="stable")
+            rows = [(*data[k].tolist(), mine[k].plane) for k in order]
+            self._table[facing] = Surfaces(data, data[order, 0].tolist(), rows)
         recesses = {p.id for p in planes if p.recess and not p.by_hand}
         self._panes = {
-            f: np.array(
-                [[s.offset, s.start, s.end] for s in segments if s.facing == f and s.plane in recesses]
-            ).reshape(-1, 3)
+            f: [(s.offset, s.start, s.end) for s in segments if s.facing == f and s.plane in recesses]
             for f in Facing
         }
         self.thickness = typical_thickness(planes)
 
     @staticmethod
-    def facing(a: Float, b: Float) -> Facing:
+    def facing(a: Corner, b: Corner) -> Facing:
         """The facing of the surface along a side of a ring whose inside is at the left."""
         if abs(a[0] - b[0]) < abs(a[1] - b[1]):
             return Facing.WEST if b[1] > a[1] else Facing.EAST
         return Facing.NORTH if b[0] > a[0] else Facing.SOUTH
 
-    def along(self, a: Float, b: Float) -> tuple[Float, list[str]]:
+    def along(self, a: Corner, b: Corner) -> tuple[Float, list[str]]:
         """(K, 4) offset, start, end (clipped to the side), residual of what was seen along it; its planes."""
-        data, planes = self._table[self.facing(a, b)]
+        table = self._table[self.facing(a, b)]
         across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
         low, high = sorted((a[1 - across], b[1 - across]))
-        start, end = np.maximum(data[:, 1], low), np.minimum(data[:, 2], high)
-        near = (np.abs(data[:, 0] - a[across]) < self.REACH) & (end > start)
-        k = np.flatnonzero(near)
-        return np.column_stack([data[k, 0], start[k], end[k], data[k, 3]]), [planes[i] for i in k]
+        seen, planes = [], []
+        for offset, start, end, residual, plane in table.near(a[across], self.REACH):
+            start, end = max(start, low), min(end, high)
+            if end > start:
+                seen.append((offset, start, end, residual))
+                planes.append(plane)
+        return np.array(seen, dtype=np.float64).reshape(-1, 4), planes
 
-    def panes(self, a: Float, b: Float) -> list[tuple[float, float]]:
+    def panes(self, a: Corner, b: Corner) -> list[tuple[float, float]]:
         """Start and end of what was seen in the recesses of a side: the wall is there, just not its face."""
         facing = self.facing(a, b)
-        offset, start, end = self._panes[facing].T
-        behind = (a[facing.axis] - offset) * facing.sign
-        near = (behind > -self.REACH) & (behind < _DEEPEST)
-        return [(float(s), float(e)) for s, e in zip(start[near], end[near], strict=True)]
+        axis, sign = facing.axis, facing.sign
+        return [
+            (start, end)
+            for offset, start, end in self._panes[facing]
+            if -self.REACH < (a[axis] - offset) * sign < _DEEPEST
+        ]
 
-    def target(self, a: Float, b: Float) -> float:
+    def target(self, a: Corner, b: Corner) -> float:
         """Where a side belongs: the median of the surfaces seen along it, by length; else where it is."""
         across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
         if self.placed(a, b):
@@ -84,7 +106,7 @@ class WallSurfaces:
         near = np.abs(seen[:, 0] - seen[order[middle], 0]) < 0.03
         return float(np.average(seen[near, 0], weights=length[near]))
 
-    def placed(self, a: Float, b: Float) -> list[tuple[float, float, str]]:
+    def placed(self, a: Corner, b: Corner) -> list[tuple[float, float, str]]:
         """Start, end and plane of the walls moved or added by hand that a side lies on; [] where on none.
 
         Such a side stays where it was put, whatever was seen near it.
@@ -95,10 +117,10 @@ class WallSurfaces:
         runs = [(max(s, low), min(e, high), p.id) for p in on for s, e in p.walls]
         return [(float(s), float(e), name) for s, e, name in runs if e > s]
 
-    def _behind_other_face(self, a: Float, b: Float, across: int) -> float:
+    def _behind_other_face(self, a: Corner, b: Corner, across: int) -> float:
         """Where only the other face of the wall was seen, the side lies one wall's thickness behind it."""
         facing = self.facing(a, b)
-        data, _ = self._table[facing.opposite]
+        data = self._table[facing.opposite].data
         low, high = sorted((a[1 - across], b[1 - across]))
         length = np.minimum(data[:, 2], high) - np.maximum(data[:, 1], low)
         ahead = (a[across] - data[:, 0]) * facing.sign  # of the other face, into the region
@@ -122,8 +144,9 @@ class WallSurfaces:
 def typical_thickness(planes: Sequence[LayoutPlane]) -> float:
     """Metres: the median distance between the two faces of the walls that were seen from both sides."""
     found = []
-    for west in (p for p in planes if p.facing in (Facing.WEST, Facing.SOUTH)):
-        for east in (p for p in planes if p.facing == west.facing.opposite):
+    of = {facing: [p for p in planes if p.facing == facing] for facing in Facing}
+    for west in (p for p in planes if p.facing.sign < 0):
+        for east in of[west.facing.opposite]:
             gap = east.offset - west.offset
             if 0.04 < gap < _THICKEST and _overlap(west.observed, east.observed) > 0.5:
                 found.append(gap)
@@ -138,35 +161,43 @@ def _overlap(a: Float, b: Float) -> float:
     return float(np.maximum(common, 0).sum())
 
 
-def sides_of(
-    polygon: Any, walls: WallSurfaces, doors: Sequence[Door], residuals: bool = True
-) -> tuple[RegionSide, ...]:
-    """The sides of all rings, the inside at their left, with the share of each that was seen.
+class KnownSides:
+    """The sides of shapes between the same walls and doors, kept: they are asked for again and again."""
 
-    :param residuals: False leaves the residuals out, which cost most of the time.
-    """
+    def __init__(self, walls: WallSurfaces, doors: Sequence[Door]) -> None:
+        self._walls, self._doors = walls, doors
+        self._known: dict[bytes, tuple[RegionSide, ...]] = {}
+
+    def of(self, polygon: Any) -> tuple[RegionSide, ...]:
+        """What :func:`sides_of` says of ``polygon``."""
+        key = polygon.wkb
+        if key not in self._known:
+            self._known[key] = sides_of(polygon, self._walls, self._doors)
+        return self._known[key]
+
+
+def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[RegionSide, ...]:
+    """The sides of all rings, the inside at their left, with the share of each that was seen."""
     rings = ((polygon.exterior, False), *((ring, True) for ring in polygon.interiors))
     return tuple(
-        _side(a, b, walls, doors, hole, residuals)
-        for ring, hole in rings
-        for a, b in _edges(np.asarray(ring.coords))
+        _side(a, b, walls, doors, hole) for ring, hole in rings for a, b in _edges(np.asarray(ring.coords))
     )
 
 
-def _edges(ring: Float) -> list[tuple[Float, Float]]:
-    points = corners(ring)
-    return [(points[k], points[(k + 1) % len(points)]) for k in range(len(points))]
+def _edges(ring: Float) -> list[tuple[list[float], list[float]]]:
+    points = corners(ring).tolist()
+    return list(zip(points, points[1:] + points[:1], strict=True))
 
 
 def _side(
-    a: Float, b: Float, walls: WallSurfaces, doors: Sequence[Door], hole: bool, residuals: bool
+    a: list[float], b: list[float], walls: WallSurfaces, doors: Sequence[Door], hole: bool
 ) -> RegionSide:
     """A side with the share of its length along which wall, or a door in it, was seen."""
     across = 0 if abs(a[0] - b[0]) < abs(a[1] - b[1]) else 1
-    low, high = sorted((float(a[1 - across]), float(b[1 - across])))
+    low, high = sorted((a[1 - across], b[1 - across]))
     seen, names = walls.along(a, b)
     placed = walls.placed(a, b)
-    spans = [(s, e) for _, s, e, _ in seen] + [(s, e) for s, e, _ in placed] + walls.panes(a, b)
+    spans = [(s, e) for _, s, e, _ in seen.tolist()] + [(s, e) for s, e, _ in placed] + walls.panes(a, b)
     for door in doors:
         if door.axis == across and abs(door.offset - a[across]) < door.thickness / 2 + walls.REACH:
             spans.append((door.start, door.end))
@@ -178,9 +209,9 @@ def _side(
             at = e
     lengths = np.concatenate([seen[:, 2] - seen[:, 1], [e - s for s, e, _ in placed]])
     plane = walls.plane([*names, *(name for _, _, name in placed)], lengths)
-    start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
+    start, end = (a[0], a[1]), (b[0], b[1])
     share = round(min(1.0, covered / max(high - low, 1e-9)), 4)
-    residual = _residual(seen, float(a[across])) if residuals else None
+    residual = _residual(seen, a[across])
     return RegionSide(start, end, plane, share, hole, residual)
 
 

@@ -64,11 +64,10 @@ def build_regions(
         rooms = [room for part in polygons_of(shape) for room in splitter.split(part)]
         pieces += [(walls.fit(room), rows) for room in rooms]
     apart = _disjoint(pieces, grid, config.sliver)
-    whole = RoomGrower(planes, walls, doors, grid, config.wall_support).grow_all(
-        [shape for shape, _ in apart]
-    )
+    grower = RoomGrower(planes, walls, doors, grid, config.wall_support)
+    whole = [shapely.orient_polygons(shape) for shape in grower.grow_all([shape for shape, _ in apart])]
     regions = [
-        make_region(polygon, rows, walls, doors, grid)
+        region_of(polygon, rows, grower.sides.of(polygon), *_cells(polygon, grid))
         for polygon, (_, rows) in zip(whole, apart, strict=True)
     ]
     kept = [r for r in regions if _acceptable(r, config)]

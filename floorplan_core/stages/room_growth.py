@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
-from floorplan_core.stages.region_sides import WallSurfaces, sides_of
+from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 
 Float = NDArray[np.float64]
 
@@ -82,9 +82,9 @@ class RoomGrower:
         grid: OccupancyGrid,
         min_support: float,
     ) -> None:
-        self._walls, self._doors, self._grid = walls, doors, grid
+        self._walls, self._grid = walls, grid
+        self.sides = KnownSides(walls, doors)
         self._usual = 0.0
-        self._known: dict[bytes, list[RegionSide]] = {}
         self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
         self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
         self._tree = shapely.STRtree(self._lines)
@@ -98,7 +98,10 @@ class RoomGrower:
         grown = list(polygons)
         self._usual = self._usual_width(grown)
         boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
-        for k, polygon in enumerate(grown):
+        for k, polygon in enumerate(map(shapely.orient_polygons, polygons)):
+            grown[k] = polygon
+            if not self._is_guessed(polygon):
+                continue
             near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
             grown[k] = self.grow(polygon, shapely.union_all([grown[j] for j in np.sort(near) if j != k]))
         return grown
@@ -106,18 +109,17 @@ class RoomGrower:
     def grow(self, polygon: Any, others: Any) -> Any:
         """``polygon`` completed, without touching ``others`` (one shapely geometry)."""
         polygon = shapely.orient_polygons(polygon)
-        if not any(s.speculated for s in self._sides(polygon)):
+        if not self._is_guessed(polygon):
             return polygon
         filled = self._fill_notches(polygon, others)
         return self._fill_notches(self._push_sides(filled, others), others)
 
     def _sides(self, polygon: Any) -> list[RegionSide]:
-        """The outer sides; asked for again and again, so they are kept by the shape."""
-        key = polygon.wkb
-        if key not in self._known:
-            sides = sides_of(polygon, self._walls, self._doors, residuals=False)
-            self._known[key] = [s for s in sides if not s.hole]
-        return self._known[key]
+        """The outer sides."""
+        return [s for s in self.sides.of(polygon) if not s.hole]
+
+    def _is_guessed(self, polygon: Any) -> bool:
+        return any(s.speculated for s in self._sides(polygon))
 
     def _fill_notches(self, polygon: Any, others: Any) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""

@@ -58,9 +58,12 @@ class RoomSplitter:
         labels = np.where(free, label(near, np.ones((3, 3)))[0], 0)
         large = np.bincount(labels.ravel()) * self._grid.cell**2 >= _LEAST
         large[0] = False
+        if np.count_nonzero(large) < 2:
+            return []  # what is one patch is not parted
         groups: list[set[int]] = []
         for door in self._doors:
-            group = {int(k) for k in np.unique(labels[self._before(door, window)]) if large[k]}
+            before = labels[self._before(door, window)]
+            group = {int(k) for k in np.unique(before) if large[k]} if before.size else set()
             joined = [g for g in groups if g & group]
             groups = [g for g in groups if not g & group] + ([group.union(*joined)] if group else [])
         return [np.isin(labels, list(group)) for group in sorted(groups, key=min)]

@@ -28,7 +28,12 @@ def cut_walls(polygon: Any, walls: Float) -> Any:
     inner = polygon.buffer(-_DEEP, join_style="mitre")
     if inner.is_empty or len(walls) == 0:
         return polygon
-    lines = shapely.linestrings(walls.reshape(-1, 2, 2))
+    x0, y0, x1, y1 = inner.bounds
+    near = (walls[:, [0, 2]].min(axis=1) <= x1) & (walls[:, [0, 2]].max(axis=1) >= x0)
+    near &= (walls[:, [1, 3]].min(axis=1) <= y1) & (walls[:, [1, 3]].max(axis=1) >= y0)
+    if not near.any():
+        return polygon
+    lines = shapely.linestrings(walls[near].reshape(-1, 2, 2))
     inside = shapely.intersection(lines, inner)
     rows = np.flatnonzero(shapely.length(inside) > _SHORTEST)
     if len(rows) == 0:

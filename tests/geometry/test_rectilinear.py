@@ -148,3 +148,26 @@ def test_the_union_of_boxes_is_that_of_shapely():
         wanted = shapely.union_all(shapely.box(*boxes.T))
         assert union.is_valid
         assert union.symmetric_difference(wanted).area < 1e-9
+
+
+def test_opening_a_rectangle_gives_what_opening_any_polygon_gives() -> None:
+    rng = np.random.default_rng(3)
+    for x0, y0, wide, high in rng.uniform([-20, -20, 1.3, 1.3], [20, 20, 30, 30], (40, 4)):
+        x1, y1 = x0 + wide, y0 + high
+        around = [
+            (x0, y0),
+            ((x0 + x1) / 2, y0),
+            (x1, y0),
+            (x1, y1),
+            (x0, y1),
+        ]  # a point too many for a rectangle
+        any_, rectangle = (
+            open_polygon(p, 0.6) for p in (shapely.Polygon(around), shapely.box(x0, y0, x1, y1))
+        )
+        expected = corners(shapely.get_coordinates(shapely.orient_polygons(any_)))
+        assert np.array_equal(corners(shapely.get_coordinates(rectangle)), expected)
+
+
+def test_a_narrow_rectangle_is_opened_away() -> None:
+    assert open_polygon(shapely.box(0, 0, 0.5, 9), 0.6).is_empty
+    assert open_polygon(shapely.box(0, 0, 0.7, 9), 0.6).area == pytest.approx(6.3)
