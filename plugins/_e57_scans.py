@@ -1,17 +1,19 @@
-"""The scans of an E57 file (ASTM E2807) through libE57: what each holds, and its points in buffers."""
+"""The scans of an E57 file (ASTM E2807): what each holds (by libE57), and its points in buffers."""
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from floorcast_plugins._e57_layout import stored_records
+from floorcast_plugins._e57_packets import Records, UnusualStreams, read_columns
 from floorplan_core.api import (
     CHUNK_POINTS,
     InputError,
@@ -44,6 +46,7 @@ class E57Scan:
     pose: NDArray[np.float64]  # (4, 4) T_file_scan; identity where none is given
     posed: bool  # a pose is given that is not the identity
     seconds: float  # start of the acquisition; 0 where unknown
+    records: Records | None = None  # how its points are stored; None: only libE57 can read them
 
     @property
     def spherical(self) -> bool:
@@ -56,8 +59,8 @@ class E57Scan:
         return self.posed or self.spherical or self.fields.issuperset(STRUCTURE)
 
 
-def check_file(path: Path) -> None:
-    """Length, page size and XML section, before a library believes them."""
+def check_file(path: Path) -> bytes:
+    """Length, page size and XML section, before a library believes them; the XML that describes the scans."""
     total = path.stat().st_size
     with path.open("rb") as handle:
         head = handle.read(HEADER.size)
@@ -75,8 +78,10 @@ def check_file(path: Path) -> None:
         handle.seek(at - at % PAGE)
         data = handle.read((size // (PAGE - CHECKSUM) + 2) * PAGE)
     pages = np.frombuffer(data[: len(data) // PAGE * PAGE], np.uint8).reshape(-1, PAGE)
-    if b"<!DOCTYPE" in pages[:, : PAGE - CHECKSUM].tobytes():
+    held = pages[:, : PAGE - CHECKSUM].tobytes()
+    if b"<!DOCTYPE" in held:
         raise InputError(f"{path.name} defines XML entities of its own, which is refused: E57 has none.")
+    return held[at % PAGE : at % PAGE + size]
 
 
 @contextmanager
@@ -91,24 +96,59 @@ def opened_image(path: Path) -> Iterator[Any]:
         image.close()
 
 
-def list_scans(path: Path) -> list[E57Scan]:
-    """The scans that hold points, in the order of the file."""
+def list_scans(path: Path, xml: bytes = b"") -> list[E57Scan]:
+    """The scans that hold points, in the order of the file; ``xml`` is what :func:`check_file` gave."""
     with opened_image(path) as image, damaged(path.name, "E57 file"):
         root = image.root()
         data = root["data3D"] if root.isDefined("data3D") else []
         scans = [_describe(path, data[k], k) for k in range(len(data))]
+    stored = stored_records(xml) if xml else []
+    if len(stored) == len(scans):
+        scans = [_with_records(scan, records) for scan, records in zip(scans, stored, strict=True)]
     return [scan for scan in scans if scan.count > 0]
 
 
-def read_scan(
-    path: Path, image: Any, scan: E57Scan, size: int = CHUNK_POINTS // 2
-) -> Generator[RawChunk, None, None]:
+def _with_records(scan: E57Scan, records: Records | None) -> E57Scan:
+    """How the points are stored, where our reading of the description is that of libE57."""
+    same = records is not None and records.count == scan.count and scan.fields.issuperset(records.fields)
+    if records is None or not same or not set(_wanted(scan)) <= set(records.fields):
+        return scan
+    return replace(scan, records=records)
+
+
+def read_scan(path: Path, scan: E57Scan, size: int = CHUNK_POINTS // 2) -> Generator[RawChunk, None, None]:
     """Valid points in the scan's frame (float64) with what they carry, in buffers.
 
     Raises :class:`InputError` where fewer records follow than the file promises.
     """
+    names, done = _wanted(scan), 0
+    if scan.records is not None:
+        try:
+            for points, columns in read_columns(path, scan.records, names, size):
+                done += len(points)
+                yield _valid_points(points, dict(zip(names[3:], columns, strict=True)), scan.spherical)
+            return
+        except UnusualStreams:
+            pass
+    with opened_image(path) as image:
+        for read in _read_by_library(path, image, scan, names, size):
+            rest = {name: column[max(0, done) :] for name, column in read.items()}
+            done -= len(read[names[0]])
+            points = np.column_stack([rest.pop(name) for name in names[:3]])
+            if len(points):
+                yield _valid_points(points, rest, scan.spherical)
+
+
+def _wanted(scan: E57Scan) -> list[str]:
+    """The fields that we use."""
     names = [*(SPHERICAL if scan.spherical else CARTESIAN)]
-    names += [name for name in (*INVALID, "timeStamp", *SEEN) if name in scan.fields]
+    return names + [name for name in (*INVALID, "timeStamp", *SEEN) if name in scan.fields]
+
+
+def _read_by_library(
+    path: Path, image: Any, scan: E57Scan, names: list[str], size: int
+) -> Generator[dict[str, Any], None, None]:
+    """The columns of all records, a buffer at a time, which is used again."""
     with damaged(path.name, "E57 file"):
         columns, reader = _reader(image, scan, names, min(size, scan.count))
     try:
@@ -122,7 +162,7 @@ def read_scan(
                     f"{scan.count - left:,} of them exist."
                 )
             left -= read
-            yield _valid_points({name: column[:read] for name, column in columns.items()}, scan.spherical)
+            yield {name: column[:read] for name, column in columns.items()}
     finally:
         reader.close()  # an image has one reader at a time, and samples leave theirs early
 
@@ -137,20 +177,22 @@ def _reader(image: Any, scan: E57Scan, names: list[str], size: int) -> tuple[dic
     return columns, points.reader(buffers)
 
 
-def _valid_points(columns: dict[str, Any], spherical: bool) -> RawChunk:
-    valid = np.ones(len(next(iter(columns.values()))), dtype=bool)
-    for name in INVALID:
-        if name in columns:
-            valid &= columns[name] == 0
-    a, b, c = (columns[name][valid] for name in (SPHERICAL if spherical else CARTESIAN))
+def _valid_points(points: Any, columns: dict[str, Any], spherical: bool) -> RawChunk:
+    """What is valid of (N, 3) coordinates and of the other columns."""
+    flags = [columns.pop(name) for name in INVALID if name in columns]
+    if any(flag.any() for flag in flags):
+        valid = np.logical_and.reduce([flag == 0 for flag in flags])
+        points = points[valid]
+        columns = {name: column[valid] for name, column in columns.items()}
     if spherical:
         with np.errstate(invalid="ignore", over="ignore"):
+            a, b, c = points.T
             level = a * np.cos(c)
-            a, b, c = level * np.cos(b), level * np.sin(b), a * np.sin(c)
-    stamps = columns["timeStamp"][valid] if "timeStamp" in columns else None
-    rgb = as_rgb(np.column_stack([columns[n][valid] for n in RGB])) if set(RGB) <= set(columns) else None
-    echo = columns["intensity"][valid].astype(np.float32) if "intensity" in columns else None
-    return RawChunk(np.column_stack([a, b, c]), stamps=stamps, rgb=rgb, intensity=echo)
+            points = np.column_stack([level * np.cos(b), level * np.sin(b), a * np.sin(c)])
+    stamps = columns["timeStamp"].copy() if "timeStamp" in columns else None
+    rgb = as_rgb(np.column_stack([columns[n] for n in RGB])) if set(RGB) <= set(columns) else None
+    echo = columns["intensity"].astype(np.float32) if "intensity" in columns else None
+    return RawChunk(points, stamps=stamps, rgb=rgb, intensity=echo)
 
 
 def _describe(path: Path, node: Any, index: int) -> E57Scan:

@@ -1,4 +1,4 @@
-"""E57 (pye57, libE57): scans with poses, cartesian or spherical, invalid points left out.
+"""E57 (described by pye57): scans with poses, cartesian or spherical, invalid points left out.
 
 Where scans are in the frame of their scanner, the scan's origin is the sensor's: its poses are the trajectory
 and the scan's number the ``scan_id``. A merged cloud has no viewpoint, and gets none.
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, opened_image, read_scan
+from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, read_scan
 from floorplan_core.api import (
     EmptyInput,
     Observer,
@@ -65,8 +65,7 @@ class E57Reader:
 
 def e57_source(path: Path, trajectory_given: bool = False) -> PointSource:
     """The points of all scans."""
-    check_file(path)
-    scans = list_scans(path)
+    scans = list_scans(path, check_file(path))
     if not scans:
         raise EmptyInput(f"{path.name} is an E57 file without points.")
     by_time = trajectory_given and all("timeStamp" in scan.fields for scan in scans)
@@ -114,10 +113,9 @@ def _without_sensors(source: PointSource) -> PointSource:
 
 
 def _chunks(path: Path, scans: list[E57Scan], sensors: bool) -> Iterator[RawChunk]:
-    with opened_image(path) as image:
-        for row, scan in enumerate(scans):
-            for read in read_scan(path, image, scan):
-                yield _chunk(read, scan, row if sensors else None)
+    for row, scan in enumerate(scans):
+        for read in read_scan(path, scan):
+            yield _chunk(read, scan, row if sensors else None)
 
 
 def _chunk(read: RawChunk, scan: E57Scan, row: int | None) -> RawChunk:
@@ -129,11 +127,10 @@ def _sample(path: Path, scans: list[E57Scan]) -> RawChunk:
     """Points from the beginning of scans that are spread over the file, in file coordinates."""
     rows = np.unique(np.linspace(0, len(scans) - 1, SAMPLE_SCANS).astype(int)).tolist()
     parts = []
-    with opened_image(path) as image:
-        for row in rows:
-            with closing(read_scan(path, image, scans[row], SAMPLE_READ // len(rows))) as buffers:
-                read = next(buffers)
-            parts.append(_chunk(read, scans[row], row))
+    for row in rows:
+        with closing(read_scan(path, scans[row], SAMPLE_READ // len(rows))) as buffers:
+            read = next(buffers)
+        parts.append(_chunk(read, scans[row], row))
     if not any(len(part.points) for part in parts):
         raise EmptyInput(f"All points of {path.name} that were looked at are marked as invalid.")
     return spread_sample(parts)

@@ -55,11 +55,10 @@ def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float |
 
 def _moved(points: NDArray[Any], frame: LocalFrame, T: Float) -> NDArray[np.float32]:
     """Points of a sensor's frame: one affine map built in float64, so that float32 sees small numbers."""
+    from floorplan_core.geometry.affine import moved
+
     matrix = frame.scale * frame.rotation @ T[:3, :3]
-    offset = frame.scale * frame.rotation @ T[:3, 3] - frame.shift
-    with np.errstate(over="ignore", invalid="ignore"):
-        moved = points @ matrix.T.astype(points.dtype) + offset.astype(points.dtype)
-        return np.asarray(moved, dtype=np.float32)
+    return moved(points, matrix, frame.scale * frame.rotation @ T[:3, 3] - frame.shift)
 
 
 def keep_finite(points: NDArray[np.float32]) -> NDArray[np.bool_] | None:

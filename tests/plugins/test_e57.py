@@ -144,8 +144,8 @@ def test_chunks_are_bounded(tmp_path, parts, monkeypatch):
     import floorcast_plugins.e57 as module
     from floorcast_plugins._e57_scans import read_scan
 
-    def small(path, image, scan, size=500):
-        return read_scan(path, image, scan, min(size, 500))
+    def small(path, scan, size=500):
+        return read_scan(path, scan, min(size, 500))
 
     monkeypatch.setattr(module, "read_scan", small)
     survey = opened(write_e57(tmp_path / "a.e57", parts))
