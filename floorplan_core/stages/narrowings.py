@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, Facing, LayoutPlane
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.door_apertures import shows_lintels
 from floorplan_core.stages.doors import find_doors
+from floorplan_core.stages.necks import find_necks
 
 Float = NDArray[np.float64]
 
@@ -36,6 +38,8 @@ def find_openings(
 ) -> tuple[Door, ...]:
     """The doors, and the gaps between wall ends that part rooms without a lintel."""
     doors = find_doors(planes, evidence, config)
+    if not shows_lintels([p.profile for p in planes if p.profile]):
+        return find_necks(planes, doors, evidence, config)
     return (*doors, *find_narrowings(planes, doors, config))
 
 
