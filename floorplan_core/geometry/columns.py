@@ -51,24 +51,21 @@ def hit_columns(xyz, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def facing_columns(u, v, z, toward, eligible, origin_u, origin_v, cell, nv, nu):  # type: ignore[no-untyped-def]
-    """Bits, weight and weighted u, v of the points that are seen from the side to which the facing looks.
+def facing_columns(xyz, row, column, level, chosen, axis, origin, cell, nv, nu):  # type: ignore[no-untyped-def]
+    """(nv, nu) bits, and number and sums of u and v, of the ``chosen`` among the points ``row`` of ``xyz``.
 
-    ``toward`` is the cosine-like component of the view along the facing's normal; points with less than the
-    least of it belong to the other face. Rows run along v, columns along u.
+    Grid rows run along v, columns along u, which is the axis ``axis``; u and v are counted from the corner of
+    the ``column`` (N, 2) along x and y that a point lies in.
     """
     bits = np.zeros((nv, nu), dtype=np.uint64)
     sums = np.zeros((nv, nu, 3), dtype=np.float32)
-    for i in range(len(u)):
-        if not eligible[i] or toward[i] < 0.03:
-            continue
-        iu, iv = int(np.floor((u[i] - origin_u) / cell)), int(np.floor((v[i] - origin_v) / cell))
-        k = int(np.floor(z[i] / LEVEL))
-        if 0 <= iu < nu and 0 <= iv < nv and 0 <= k < LEVELS:
-            bits[iv, iu] |= np.uint64(1) << np.uint64(k)
+    for n in range(len(row)):
+        if chosen[n]:
+            iu, iv, i = column[n, axis], column[n, 1 - axis], row[n]
+            bits[iv, iu] |= np.uint64(1) << np.uint64(level[n])
             sums[iv, iu, 0] += 1.0
-            sums[iv, iu, 1] += u[i] - (origin_u + iu * cell)
-            sums[iv, iu, 2] += v[i] - (origin_v + iv * cell)
+            sums[iv, iu, 1] += xyz[i, axis] - (origin[axis] + iu * cell)
+            sums[iv, iu, 2] += xyz[i, 1 - axis] - (origin[1 - axis] + iv * cell)
     return bits, sums
 
 
@@ -81,33 +78,38 @@ def surface_offsets(bits, sums, band, cell, half, tangent, least):  # type: igno
     """
     nv, nu = bits.shape
     out = np.full((nv, nu), np.nan, dtype=np.float32)
-    for iv in range(nv):
-        for iu in range(nu):
-            if bits[iv, iu] & band == 0:
-                continue
-            w = wu = wv = wuu = wuv = wvv = 0.0
-            for jv in range(max(0, iv - half), min(nv, iv + half + 1)):
-                for ju in range(max(0, iu - half), min(nu, iu + half + 1)):
-                    b = bits[jv, ju] & band
-                    if b == 0:
-                        continue
-                    p = float(popcount(b))
-                    du = ju - iu + sums[jv, ju, 1] / (sums[jv, ju, 0] * cell)
-                    dv = jv - iv + sums[jv, ju, 2] / (sums[jv, ju, 0] * cell)
-                    w += p
-                    wu += p * du
-                    wv += p * dv
-                    wuu += p * du * du
-                    wuv += p * du * dv
-                    wvv += p * dv * dv
-            if w < least:
-                continue
-            mu, mv = wu / w, wv / w
-            cuu, cuv, cvv = wuu / w - mu * mu, wuv / w - mu * mv, wvv / w - mv * mv
-            if cvv < 1.0 or cuu > 0.45 * cvv or abs(cuv) > tangent * (cvv - cuu):
-                continue
-            if abs(mu - sums[iv, iu, 1] / (sums[iv, iu, 0] * cell)) > 1.6:
-                continue
+    places = np.flatnonzero(bits & band)
+    weight, offset = (
+        np.zeros((nv, nu)),
+        np.empty((nv, nu, 2)),
+    )  # each column is asked for by all its neighbours
+    for place in places:
+        iv, iu = place // nu, place % nu
+        weight[iv, iu] = popcount(bits[iv, iu] & band)
+        for k in range(2):
+            offset[iv, iu, k] = sums[iv, iu, 1 + k] / (sums[iv, iu, 0] * cell)
+    for place in places:
+        iv, iu = place // nu, place % nu
+        w = wu = wv = wuu = wuv = wvv = 0.0
+        for jv in range(max(0, iv - half), min(nv, iv + half + 1)):
+            for ju in range(max(0, iu - half), min(nu, iu + half + 1)):
+                p = weight[jv, ju]
+                if p == 0.0:
+                    continue
+                du, dv = ju - iu + offset[jv, ju, 0], jv - iv + offset[jv, ju, 1]
+                w += p
+                wu += p * du
+                wv += p * dv
+                wuu += p * du * du
+                wuv += p * du * dv
+                wvv += p * dv * dv
+        if w < least:
+            continue
+        mu, mv = wu / w, wv / w
+        cuu, cuv, cvv = wuu / w - mu * mu, wuv / w - mu * mv, wvv / w - mv * mv
+        if cvv < 1.0 or cuu > 0.45 * cvv or abs(cuv) > tangent * (cvv - cuu):
+            continue
+        if abs(mu - offset[iv, iu, 0]) <= 1.6:
             out[iv, iu] = iu + mu
     return out
 

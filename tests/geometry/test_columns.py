@@ -63,8 +63,10 @@ def _wall(offset: float, facing: float, slope: float = 0.0, rows: int = 40, seed
 
 def _offsets(*walls, nv=40, nu=60):
     u, v, z, toward = (np.concatenate(parts) for parts in zip(*walls, strict=True))
-    eligible = np.ones(len(u), dtype=bool)
-    bits, sums = facing_columns(u, v, z, toward, eligible, 0.0, 0.0, CELL, nv, nu)
+    xyz, row = np.column_stack([u, v, z]), np.arange(len(u), dtype=np.int32)
+    column = np.floor(xyz[:, :2] / CELL).astype(np.int32)
+    level = np.floor(z / LEVEL).astype(np.uint8)
+    bits, sums = facing_columns(xyz, row, column, level, toward > 0.03, 0, np.zeros(2), CELL, nv, nu)
     return bits, surface_offsets(bits, sums, height_mask(0.2, 2.4), CELL, 3, np.tan(np.radians(15)), 8.0)
 
 
