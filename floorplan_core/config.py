@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from floorplan_core.errors import UsageError
 
@@ -33,14 +33,22 @@ class InputConfig(Section):
         "auto", "", "Unit of the file's coordinates; us-ft is the US survey foot."
     )
     up: Literal["auto", "x", "y", "z", "-x", "-y", "-z"] = setting("auto", "", "The file's up axis.")
-    mirrored: bool = setting(
-        False, "", "The file's axes are left-handed; its plan would come out mirrored otherwise."
+    mirrored: Literal["auto", "yes", "no"] = setting(
+        "auto",
+        "",
+        "The file's axes are left-handed, its plan would be a mirror image; auto: where its poses say so.",
     )
     topic: str = setting(
         "", "", "Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans."
     )
     max_range: float = setting(30.0, "m", "Points farther from their sensor are dropped.", gt=0.5, le=500)
     min_range: float = setting(0.05, "m", "Points nearer to their sensor are dropped.", ge=0, le=5)
+
+    @field_validator("mirrored", mode="before")
+    @classmethod
+    def _word(cls, value: Any) -> Any:
+        """YAML reads yes and no as true and false, and so did earlier versions."""
+        return ("no", "yes")[value] if isinstance(value, bool) else value
 
 
 class FrameConfig(Section):
@@ -77,7 +85,7 @@ class VoxelConfig(Section):
 
     size: float = setting(0.1, "m", "Side of a voxel of the occupancy map (paper: 0.1 m).", ge=0.02, le=1)
     own_axes: bool = setting(
-        False, "", "Lay the voxels along the survey's own axes: where the file's world lies changes nothing."
+        True, "", "Lay the voxels along the survey's own axes: where the file's world lies changes nothing."
     )
     min_misses: int = setting(1, "rays", "Rays through a voxel that make it free.", ge=1, le=100)
     hit_ratio: float = setting(

@@ -191,7 +191,7 @@ class FloorPlanner:
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
         regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
-        regions, doors = self.names(self._some(regions), doors, storey)
+        regions, doors = self._named(self._some(regions), doors, storey, frame)
         regions, remarks = correct_names(regions, say.names)
         said += remarks + self._lost(found[2], doors)
         points = stage("regions", lambda: thin_wall_points(evidence, segments), evidence, segments)
@@ -289,6 +289,19 @@ class FloorPlanner:
                 f"Too little to make a plan of: {seen.points} points in {len(seen)} voxels of "
                 f"{seen.size:g} m; check the unit (--set input.unit=...) or give more scans."
             )
+
+    def _named(
+        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int, frame: ManhattanFrame
+    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+        """Names that persist by place: in the local frame, since that of the plan changes as more is seen."""
+        import shapely
+
+        def local(xy: Float) -> Float:
+            return (frame.from_manhattan(xy) + self.map.own.centre)[:, :2]
+
+        placed = tuple(replace(r, polygon=shapely.transform(r.polygon, local)) for r in regions)
+        named, doors = self.names(placed, doors, storey)
+        return tuple(replace(r, id=n.id, name=n.name) for r, n in zip(regions, named, strict=True)), doors
 
     def _some(self, regions: tuple[Region, ...]) -> tuple[Region, ...]:
         """The regions; at least one there must be."""

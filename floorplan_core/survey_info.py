@@ -43,6 +43,7 @@ class SurveyInfo:
     size: Float  # (3,) along the walls, across them, and up; without ghosts
     unit: str
     up: str
+    mirrored: bool  # the file's axes are left-handed: its mirror image is planned
     crs: str
     shift: Float  # (3,) subtracted inside
     scans: int | None
@@ -68,6 +69,7 @@ class SurveyInfo:
             "extent": {"low": _rounded(self.low), "high": _rounded(self.high), "size": _rounded(self.size)},
             "unit": self.unit,
             "up": self.up,
+            "mirrored": self.mirrored,
             "crs": self.crs,
             "shift": _rounded(self.shift),
             "scans": self.scans,
@@ -101,6 +103,7 @@ def describe(
         size=_size(seen, frame),
         unit=local.unit,
         up=local.up,
+        mirrored=bool(np.linalg.det(local.rotation) < 0),
         crs=local.crs,
         shift=local.shift,
         scans=survey.scans,

@@ -58,10 +58,13 @@ class SurveyMap:
         )
         self._sample: tuple[int, Surfels] | None = None  # the last one, of so many points
         self._waiting: list[Scan] = []  # what came before that was known
+        self._expected = 0  # surfels, of a run whose length is known
+        self._first: list[Scan] = []  # the same, kept where it was decided on fewer points than it takes
 
     def expect(self, points: int) -> None:
         """Say how many points will come, so that the map need not grow step by step."""
-        self.surfels.reserve(min(points, MOST_RESERVED))
+        self._expected = min(points, MOST_RESERVED)
+        self.surfels.reserve(self._expected)
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
         """Add one scan: (N, 3) metres in the sensor frame, or in the world where no pose (4, 4) is given."""
@@ -98,16 +101,21 @@ class SurveyMap:
             self._integrate(chunk.points, chunk.scan_id - np.int32(first), origins)
 
     def settle(self) -> None:
-        """Decide on the first points, however they were cut, what kind of survey it is; add what waits."""
+        """Decide on the first points, however they were cut, what kind of survey it is; add what waits.
+
+        Where fewer came than it takes, the decision holds only until more do: a plan in between changes
+        nothing of the later ones.
+        """
         waiting, self._waiting = self._waiting, []
         if waiting:
+            self._first = waiting if _count(waiting) < SAMPLE and not self.rays.blocks else []
             first = np.concatenate([w[0] for w in waiting])[:SAMPLE]
             self.planar = is_planar(first) and all(len(w[2]) for w in waiting)
             self._lattice = 0.0 if self.planar else lattice_spacing(first)
             if (
                 self._own_axes and not self._lattice and not self.rays.blocks
             ):  # voxels of the file keep their axes
-                self.own = own_frame(first)
+                self.own = own_frame(first, level=not self.planar)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
         self.rays.take(self._more_rays)
@@ -121,10 +129,11 @@ class SurveyMap:
 
     def frame(self, config: FrameConfig) -> ManhattanFrame:
         """The Manhattan frame of the local frame (about the map's centre), estimated on the map."""
-        if config.yaw_deg is not None:
+        asked = config.yaw_deg
+        if asked is not None:
             turned = math.degrees(math.atan2(self.own.rotation[1, 0], self.own.rotation[0, 0]))
-            config = config.model_copy(update={"yaw_deg": config.yaw_deg + turned})
-        return seen_from(estimate_frame(self.sample(), config), self.own.rotation)
+            config = config.model_copy(update={"yaw_deg": asked + turned})
+        return seen_from(estimate_frame(self.sample(), config), self.own.rotation, asked)
 
     def path(self) -> Float:
         """(M, 3) sensor positions so far, frame of the map."""
@@ -148,12 +157,21 @@ class SurveyMap:
         self._rows = (trajectory, first, last)
 
     def _integrate(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
+        if self._first:
+            self._begin_again()
         if self._lattice is not None:
             self._add(points, scan, origins)
             return
         self._waiting.append((points.copy(), scan, origins))
-        if sum(len(waiting[0]) for waiting in self._waiting) >= SAMPLE:
+        if _count(self._waiting) >= SAMPLE:
             self.settle()
+
+    def _begin_again(self) -> None:
+        """As before anything was decided; the points so far wait for more."""
+        self._waiting, self._first = self._first, []
+        self.surfels, self.rays = SurfelMap(self.surfels.size), MissMap(self.rays.size)
+        self.surfels.reserve(self._expected)
+        self._lattice, self.planar, self.own, self._sample = None, False, OwnFrame(), None
 
     def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
         began = time.perf_counter()
@@ -186,3 +204,7 @@ class SurveyMap:
             np.ascontiguousarray(scan, dtype=np.int32),
             np.ascontiguousarray(origins, dtype=np.float64),
         )
+
+
+def _count(scans: list[Scan]) -> int:
+    return sum(len(points) for points, _, _ in scans)

@@ -98,6 +98,10 @@ def read_folder(folder: Path, given: Path | None) -> RgbdFolder:
     )
     if not frames:
         raise InputError(f"None of the {len(images)} depth images of {folder.name} has a usable pose.")
+    if len({bool(np.linalg.det(frame.pose[:3, :3]) < 0) for frame in frames}) > 1:
+        raise InputError(
+            f"Some poses of {folder.name} reflect the axes of the camera and some do not: they are damaged."
+        )
     scale = TUM_SCALE if kind == "TUM" else MILLIMETRES
     text = f"{folder.name} holds {len(images):,} depth images ({kind}); {note}."
     return RgbdFolder(kind, frames, len(images) - len(frames), read_camera(folder), scale, text)
@@ -238,7 +242,7 @@ def _rigid(values: list[float] | None) -> Float | None:
     if values is None or len(values) != 16:
         return None
     T = np.array(values).reshape(4, 4)
-    return T if bool(is_rigid(T[None])[0]) else None
+    return T if bool(is_rigid(T[None], mirrored=None)[0]) else None
 
 
 def _first(folder: Path, names: tuple[str, ...]) -> Path | None:

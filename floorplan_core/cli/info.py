@@ -112,7 +112,7 @@ def survey_rows(found: SurveyInfo, paths: list[Path]) -> Rows:
         ("points", _points(found)),
         ("extent", "{:.1f} x {:.1f} m, {:.1f} m high".format(*found.size)),
         ("from, to", f"{_place(found.low)}, {_place(found.high)}"),
-        ("unit, up", f"{found.unit}, {found.up}"),
+        ("unit, up", f"{found.unit}, {found.up}" + (", left-handed" if found.mirrored else "")),
         ("CRS", _crs_name(found.crs) if found.crs else "none"),
     ]
     if found.scans is not None:

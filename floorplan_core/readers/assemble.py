@@ -26,6 +26,7 @@ from floorplan_core.readers.source import PointSource, RawChunk, ScanIds
 from floorplan_core.readers.trajectory import read_trajectory
 from floorplan_core.readers.trajectory_check import belongs, check_plausible, check_rows, fit_unit
 from floorplan_core.readers.trajectory_files import find_trajectory
+from floorplan_core.readers.trajectory_forms import are_reflections
 from floorplan_core.units import METRES_PER_UNIT, up_rotation
 
 Float = NDArray[np.float64]
@@ -42,11 +43,9 @@ def assemble(source: PointSource, options: ReadOptions, observer: Observer) -> R
         _check_rows(source, scan_id, len(path))
     near = path if path is not None and belongs(points, path) else None
     guess = _guess(source, points, near, options)
-    frame = replace(_local_frame(points, guess, options.input.mirrored), crs=source.crs)
-    if options.input.mirrored:
-        notes.append(
-            "The file is left-handed, as asked: its mirror image is planned, y of the world reversed."
-        )
+    mirrored, handedness = _handedness(options.input.mirrored, path)
+    frame = replace(_local_frame(points, guess, mirrored), crs=source.crs)
+    notes += handedness
     if frame.shift.any():
         notes.append(_shift_sentence(frame, sample))
     trajectory = None
@@ -86,6 +85,27 @@ def _guess(source: PointSource, points: Float, path: Trajectory | None, options:
         s.replace("as asked", words) if f else s for s, f in zip(guess.sentences, fixed, strict=True)
     )
     return replace(guess, sentences=tuple(sentences))
+
+
+def _handedness(asked: str, path: Trajectory | None) -> tuple[bool, list[str]]:
+    """Whether the file is left-handed, with a sentence where that is not the usual.
+
+    Only matrices of poses can tell: a sensor's axes are right-handed, so that a pose that reflects them has
+    a left-handed world. Quaternions, points, colours and triangles look the same in a mirror.
+    """
+    reflects = path is not None and are_reflections(path.T_world_sensor)
+    if asked == "yes":
+        return True, [
+            "The file is left-handed, as asked: its mirror image is planned, y of the world reversed."
+        ]
+    if asked == "auto" and reflects:
+        return True, [
+            "The file is left-handed, its poses reflect the sensor's axes: its mirror image is planned, y of "
+            "the world reversed; --set input.mirrored=no takes it as it is."
+        ]
+    if reflects:
+        return False, ["Its poses reflect the sensor's axes; the file is taken as right-handed, as asked."]
+    return False, []
 
 
 def _local_frame(points: Float, guess: AxisGuess, mirrored: bool) -> LocalFrame:

@@ -25,7 +25,7 @@ def form_of(text: str) -> str:
         row = _numbers(line)
         if row is None:
             continue
-        if len(row) in (KITTI, MATRIX) and is_rigid(_matrices(np.array([row])))[0]:
+        if len(row) in (KITTI, MATRIX) and is_rigid(_matrices(np.array([row])), mirrored=None)[0]:
             return "kitti"
         if row[0] >= NANOSECONDS_FROM and (len(row) == EUROC or len(row) == POSE):
             return "euroc"
@@ -39,16 +39,25 @@ def read_form(name: str, text: str, form: str) -> Trajectory:
     return _kitti(name, rows, lines) if form == "kitti" else _euroc(name, rows, lines)
 
 
-def is_rigid(T: Float) -> NDArray[np.bool_]:
-    """(M,) which of (M, 4, 4) matrices are rotations with a translation, up to rounding."""
+def is_rigid(T: Float, mirrored: bool | None = False) -> NDArray[np.bool_]:
+    """(M,) which of (M, 4, 4) matrices are rotations with a translation, up to rounding.
+
+    :param mirrored: True: a rotation and a reflection, as poses in a left-handed world are; None: either.
+    """
     R = T[:, :3, :3]
     with np.errstate(over="ignore", invalid="ignore"):
         skew = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2))
-        return np.asarray((skew <= MAX_SKEW) & (np.linalg.det(R) > 0) & np.isfinite(T).all(axis=(1, 2)))
+        good = (skew <= MAX_SKEW) & np.isfinite(T).all(axis=(1, 2))
+        return np.asarray(good if mirrored is None else good & ((np.linalg.det(R) < 0) == mirrored))
+
+
+def are_reflections(T: Float) -> bool:
+    """True where all of (M, 4, 4) poses turn a right-handed sensor's axes into left-handed ones, M > 0."""
+    return len(T) > 0 and bool((np.linalg.det(T[:, :3, :3]) < 0).all())
 
 
 def nearest_rotations(R: Float) -> Float:
-    """(M, 3, 3) the rotations nearest to almost orthonormal matrices (singular value decomposition)."""
+    """(M, 3, 3) the orthonormal matrices nearest to almost orthonormal ones, by their singular values."""
     u, _, v = np.linalg.svd(R)
     return np.asarray(u @ v)
 
@@ -56,7 +65,7 @@ def nearest_rotations(R: Float) -> Float:
 def _kitti(name: str, rows: Float, lines: list[int]) -> Trajectory:
     """One pose a row; the file has no times, so rows are a second apart."""
     poses = _matrices(rows)
-    bad = np.flatnonzero(~is_rigid(poses))
+    bad = np.flatnonzero(~is_rigid(poses, mirrored=are_reflections(poses[:1])))
     if len(bad):
         raise InputError(f"Line {lines[bad[0]]} of the trajectory {name} is no rotation with a translation.")
     poses[:, :3, :3] = nearest_rotations(poses[:, :3, :3])

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import FrameConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
+from floorplan_core.geometry.level_frame import rotation_to_z
 from floorplan_core.geometry.surfel_map import Surfels
 from floorplan_core.model import ManhattanFrame
 
@@ -45,7 +46,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     """The rotation after which walls lie along x and y; raises :class:`NoPlanError` where there is none."""
     normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
     up = _gravity(normals)
-    level = _rotation_to_z(up)
+    level = rotation_to_z(up)
     n = normals.normal @ level.T
     vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
     area = float(normals.weight[vertical].sum()) * surfels.size**2 * surfels.every
@@ -74,18 +75,24 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
 
 
-def seen_from(frame: ManhattanFrame, turn: Float) -> ManhattanFrame:
+def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) -> ManhattanFrame:
     """``frame`` for points that ``turn`` (3, 3) takes into those that it was estimated on.
 
     Of the four ways to lay x and y along the walls the one that turns least is taken, as in the estimate.
+    With ``yaw_deg`` the walls have exactly this direction, as the user wants it.
     """
     rotation = frame.rotation @ turn
     heading = math.atan2(rotation[0, 1], rotation[0, 0])
-    yaw = float(_wrap(heading))
-    quarters = round((heading - yaw) / (math.pi / 2)) % 4
-    c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
-    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ rotation
-    return replace(frame, rotation=rotation, yaw=yaw)
+    yaw = float(_wrap(heading if yaw_deg is None else math.radians(yaw_deg)))
+    if yaw_deg is None:
+        quarters = round((heading - yaw) / (math.pi / 2)) % 4
+        c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
+        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    else:
+        turned = _rotation_about_z(heading - yaw)
+    rotation = turned @ rotation
+    tilt = math.acos(float(np.clip(rotation[2, 2], -1, 1)))
+    return replace(frame, rotation=rotation, yaw=yaw, tilt=tilt)
 
 
 def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig) -> tuple[float, float]:
@@ -153,13 +160,6 @@ def _square_to_floor(normals: CellNormals, up: Float) -> Float:
         normal = np.linalg.eigh((off * w).T @ off)[1][:, 0]
         up = normal * np.sign(normal @ up)
     return np.asarray(up)
-
-
-def _rotation_to_z(up: Float) -> Float:
-    """The smallest rotation that takes ``up`` to z (Rodrigues)."""
-    axis = np.cross(up, [0.0, 0.0, 1.0])
-    K = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.asarray(np.eye(3) + K + K @ K / (1.0 + up[2]))
 
 
 def _rotation_about_z(angle: float) -> Float:

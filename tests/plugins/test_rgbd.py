@@ -217,3 +217,17 @@ def test_damaged_images_and_texts(tmp_path):
                 assert "\n" not in str(error)
                 assert "switched off" not in str(error), str(error)
         file.write_bytes(good)
+
+
+def test_a_left_handed_world_is_turned_into_the_building(tmp_path):
+    """The images fix the camera's axes: poses that reflect them have a left-handed world."""
+    usual = whole(opened(write_scannet(tmp_path / "run"), unit="auto", up="auto"))[0]
+    root = write_scannet(tmp_path / "mirrored")
+    for k, T in enumerate(camera_poses()):
+        write_matrix(root / "pose" / f"{k}.txt", np.diag([1.0, -1.0, 1.0, 1.0]) @ T)
+    survey = opened(root, unit="auto", up="auto")
+    assert any("left-handed" in s for s in survey.assumptions)
+    assert np.allclose(whole(survey)[0], usual, atol=1e-4)
+    T = camera_poses()[3]
+    write_matrix(root / "pose" / "3.txt", T)
+    assert "Some poses of mirrored reflect the axes" in refusal(root)

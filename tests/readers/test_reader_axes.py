@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from reader_clouds import all_points, path_in_room, room, write_ply, write_tum, xyz_columns
 
-from floorplan_core.config import InputConfig
+from floorplan_core.config import Config, InputConfig
+from floorplan_core.errors import InputError
 from floorplan_core.model import Trajectory
 from floorplan_core.readers import open_survey
 from floorplan_core.readers.axes import PRIOR, guess_axes
@@ -144,3 +145,50 @@ def test_degenerate_clouds_get_some_answer(points):
     guess = guess_axes(points, None, "auto", "auto")
     assert guess.up in UP_AXES
     assert guess.unit in METRES_PER_UNIT
+
+
+def _survey_with_matrices(folder: Path, mirror: bool, mixed: bool = False) -> Path:
+    """A cloud beside a trajectory of 3 x 4 matrices, as a left-handed engine writes them where ``mirror``."""
+    rng = np.random.default_rng(5)
+    points = rng.uniform(0, 1, (4000, 3)) * (9, 6, 2.6)
+    points[:2000, 2] = np.where(rng.uniform(0, 1, 2000) < 0.5, 0.0, 2.6)
+    poses = np.tile(np.eye(4), (12, 1, 1))
+    poses[:, :3, 3] = np.column_stack([np.linspace(1, 8, 12), np.full(12, 3.0), np.full(12, 1.2)])
+    flip = np.diag([1.0, -1.0, 1.0, 1.0]) if mirror else np.eye(4)
+    poses = flip @ poses
+    if mixed:
+        poses[7, :3, 1] *= -1
+    text = "\n".join(" ".join(f"{v:.6f}" for v in p) for p in points @ flip[:3, :3])
+    (folder / "points.txt").write_text("x y z\n" + text + "\n")
+    rows = "\n".join(" ".join(f"{v:.9f}" for v in pose[:3].ravel()) for pose in poses)
+    (folder / "trajectory.txt").write_text(rows + "\n")
+    return folder / "points.txt"
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+def test_poses_that_reflect_the_sensor_say_that_a_file_is_left_handed(tmp_path, mirror):
+    survey = open_survey(_survey_with_matrices(tmp_path, mirror))
+    assert (np.linalg.det(survey.local_frame.rotation) < 0) == mirror
+    assert any("left-handed" in s and "input.mirrored=no" in s for s in survey.assumptions) == mirror
+    assert np.linalg.det(survey.trajectory.T_world_sensor[:, :3, :3]) == pytest.approx(np.ones(12))
+    y = np.concatenate([c.points for c in survey.chunks()])[:, 1]
+    assert y.min() > -0.01 and y.max() < 6.01  # the building, in front of its mirror
+
+
+def test_what_the_user_says_of_the_hand_goes_before(tmp_path):
+    cloud = _survey_with_matrices(tmp_path, True)
+    survey = open_survey(cloud, config=Config().with_values({"input.mirrored": "no"}).input)
+    assert np.linalg.det(survey.local_frame.rotation) > 0
+    assert any("right-handed, as asked" in s for s in survey.assumptions)
+
+
+def test_poses_that_disagree_on_the_hand_are_damaged(tmp_path):
+    with pytest.raises(InputError, match="Line 8 of the trajectory"):
+        open_survey(_survey_with_matrices(tmp_path, True, mixed=True))
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"), [("yes", "yes"), ("true", "yes"), ("false", "no"), ("auto", "auto")]
+)
+def test_yes_and_true_are_the_same_word(said, meant):
+    assert Config().with_values({"input.mirrored": said}).input.mirrored == meant
