@@ -20,6 +20,9 @@ from floorplan_core.geometry.level_frame import level_rotation
 Float = NDArray[np.float64]
 
 _ENOUGH = 10  # points
+# Between the largest spread and the frame's x: walls run along the one, and cells along walls would put all
+# points of one into the same layer, or half of them into the next.
+_ASIDE = np.radians(20.0)
 _MOST = 25_000  # points that are looked at
 _ROUNDS = 3  # of leaving out what is far from the middle
 _WORTH = 100_000  # points from which a second thread moves half of them
@@ -68,7 +71,8 @@ def own_frame(points: NDArray[Any], level: bool = True) -> OwnFrame:
     along = vectors[:, 1]
     if ((u @ along) ** 3).sum() < 0:  # both ends of the axis are alike but for the skewness
         along = -along
-    x, y = along
+    c, s = np.cos(_ASIDE), np.sin(_ASIDE)
+    x, y = c * along[0] - s * along[1], s * along[0] + c * along[1]
     return OwnFrame(np.array([[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]]) @ upright, centre)
 
 

@@ -52,7 +52,7 @@ def moved(flat: Survey, turn: np.ndarray, shift: np.ndarray) -> tuple[np.ndarray
 
 
 def world(plan: FloorPlan, turn: np.ndarray, shift: np.ndarray) -> list[shapely.Polygon]:
-    """The regions in the frame of the survey as it was made, by their middles."""
+    """The regions on the floor of the plan, in the frame of the survey as it was made, by their middles."""
 
     def back(xy: np.ndarray) -> np.ndarray:
         there = plan.frame.from_manhattan(xy) + plan.local_frame.shift
@@ -115,18 +115,20 @@ def test_a_left_handed_file_gives_the_building_and_not_its_mirror_image(flat, st
     assert_same(sorted(image, key=lambda p: (round(p.centroid.x), round(p.centroid.y))), straight, 0.02)
 
 
+@pytest.mark.parametrize(("form", "places"), [("<f8", None), ("<f4", None), ("<f8", 4)], ids=str)
+def test_numbers_of_usual_precision(flat, straight, tmp_path, form, places):
+    """Doubles, floats and numbers that were rounded to a tenth of a millimetre, of a tilted building."""
+    turn, shift = rotation(-61, 1.5, 2), np.array([240.0, -35.0, 12.0])
+    points, ids, poses = moved(flat, turn, shift)
+    points = points.astype(form) if places is None else points.round(places)
+    plan = plan_of(tmp_path, points.astype(np.float64), ids, poses, up="z", unit="m")
+    assert_same(world(plan, turn, shift), straight)
+
+
 @pytest.mark.parametrize("tilt", [(3, 0), (0, -3), (2, 2)], ids=str)
 def test_a_tilt_of_three_degrees(flat, straight, tmp_path, tilt):
     """The map is levelled by the floor itself, and the voxels lie as in a level building."""
     turn, shift = rotation(20, *tilt), np.array([500.0, -20.0, 3.0])
     plan = plan_of(tmp_path, *moved(flat, turn, shift), up="z", unit="m")
     assert np.degrees(plan.frame.tilt) == pytest.approx(np.hypot(*tilt), abs=0.1)
-    found = []
-    for region in plan.regions:  # the outlines in 3D, on the floor of the plan
-        found.append(
-            shapely.transform(
-                region.polygon,
-                lambda xy: ((plan.frame.from_manhattan(xy) + plan.local_frame.shift - shift) @ turn)[:, :2],
-            )
-        )
-    assert_same(sorted(found, key=lambda p: (round(p.centroid.x), round(p.centroid.y))), straight)
+    assert_same(world(plan, turn, shift), straight)
