@@ -6,6 +6,8 @@ questions like "does it reach the ceiling?" or "is it free from 0.4 to 1.8 m?" a
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -27,6 +29,25 @@ def height_mask(low: float, high: float) -> np.uint64:
 def count_bits(bits: Bits) -> NDArray[np.int64]:
     """Number of set bits of each element."""
     return np.bitwise_count(bits).astype(np.int64)
+
+
+def levels_in_any(grid: Bits, columns: Iterable[int]) -> Bits:
+    """(rows,) levels of ``grid`` (rows, columns) that are set in any of its ``columns``.
+
+    Several times as fast as a reduction along so short an axis; so is :func:`levels_in_all`.
+    """
+    out = np.zeros(len(grid), dtype=np.uint64)
+    for column in columns:
+        out |= grid[:, column]
+    return out
+
+
+def levels_in_all(grid: Bits, columns: Iterable[int]) -> Bits:
+    """(rows,) levels that are set in all of the ``columns``."""
+    out = np.full(len(grid), ~np.uint64(0))
+    for column in columns:
+        out &= grid[:, column]
+    return out
 
 
 @njit(cache=True, inline="always")

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 
 Float = NDArray[np.float64]
@@ -67,9 +68,10 @@ def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
     profile = plane.profile
     if profile is None:
         return []
-    empty = np.concatenate([[False], profile.low < 0.12, [False]])
     spans = []
-    for a, b in np.flatnonzero(np.diff(empty.astype(np.int8))).reshape(-1, 2):
+    for a, b in runs_of(profile.low < 0.12).tolist():
+        if (b - a) * profile.step <= _PASSED:
+            continue
         passed = a + np.flatnonzero(profile.through[a:b] > 0.3)
         if len(passed) * profile.step > _PASSED:
             ends = profile.start + profile.step * np.array([passed[0], passed[-1] + 1])

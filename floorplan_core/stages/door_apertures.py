@@ -14,9 +14,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import WallProfile
 from floorplan_core.stages.layout_planes import is_solid
 
@@ -83,17 +85,24 @@ def door_response(profile: WallProfile, config: DoorsConfig) -> DoorResponse:
     gradient = np.convolve(histogram, kernel, mode="same")
     best, width = np.zeros(len(histogram)), np.zeros(len(histogram))
     inside = np.concatenate([[0.0], np.cumsum(histogram)])
-    for bins in range(round(config.min_width / profile.step), round(config.max_width / profile.step) + 1):
-        if bins >= len(histogram):
-            break
-        fall, rise = -gradient[:-bins], gradient[bins:]
-        empty = 1.0 - (inside[bins:-1] - inside[: -bins - 1]) / bins
-        answer = np.minimum(fall, rise) * empty
-        answer = answer - _OFF_APERTURE * abs(bins * profile.step - config.aperture)
-        better = answer > best[:-bins]
-        best[:-bins][better] = answer[better]
-        width[:-bins][better] = bins * profile.step
+    least, most = (round(v / profile.step) for v in (config.min_width, config.max_width))
+    _match(gradient, inside, profile.step, least, most, config.aperture, best, width)
     return DoorResponse(histogram, gradient, best, width)
+
+
+@njit(cache=True, nogil=True)
+def _match(gradient, inside, step, least, most, aperture, best, width):  # type: ignore[no-untyped-def]
+    """Put the best answer of the filter at every bin into ``best``, and its aperture into ``width``.
+
+    ``inside`` (B + 1,) sums the histogram; apertures have ``least`` to ``most`` bins, the first wins ties.
+    """
+    for bins in range(least, min(most + 1, len(best))):
+        penalty = _OFF_APERTURE * abs(bins * step - aperture)
+        for k in range(len(best) - bins):
+            empty = 1.0 - (inside[k + bins] - inside[k]) / bins
+            answer = min(-gradient[k], gradient[k + bins]) * empty - penalty
+            if answer > best[k]:
+                best[k], width[k] = answer, bins * step
 
 
 def apertures(
@@ -123,7 +132,7 @@ def apertures(
             out.append((*_edges(profile, first, last), float(signal.response[k])))
     for gap in (
         *_lintel_gaps(profile, walls, config),
-        *_corner_gaps(profile, free, walls, meets, config, lintels),
+        *_corner_gaps(profile, free, walls, meets.tolist(), config, lintels),
     ):
         if not _overlaps(gap, out):
             out.append(gap)
@@ -131,7 +140,12 @@ def apertures(
 
 
 def _corner_gaps(
-    profile: WallProfile, free: Float, walls: Float, meets: Float, config: DoorsConfig, lintels: bool
+    profile: WallProfile,
+    free: Float,
+    walls: Float,
+    meets: Sequence[float],
+    config: DoorsConfig,
+    lintels: bool,
 ) -> list[Aperture]:
     """Openings between the end of a piece of wall and a crossing wall: one of their jambs is in the plane.
 
@@ -153,7 +167,7 @@ def _corner_gaps(
 
 def _edges_of(runs: Float) -> list[tuple[float, int]]:
     """Both ends of each run with the direction in which it ends."""
-    return [(float(v), sign) for run in runs for v, sign in zip(run, (-1, 1), strict=True)]
+    return [(v, sign) for run in runs.tolist() for v, sign in zip(run, (-1, 1), strict=True)]
 
 
 def _passed(profile: WallProfile, gap: Aperture) -> float:
@@ -170,23 +184,21 @@ def _lintel_share(profile: WallProfile, gap: Aperture) -> float:
 
 def _pieces(profile: WallProfile) -> Float:
     """(K, 2) pieces of wall that stand on the floor, metres along the plane."""
-    solid = np.concatenate([[False], is_solid(profile), [False]]).astype(np.int8)
-    ends = np.flatnonzero(np.diff(solid)).reshape(-1, 2).astype(np.float64)
+    ends = runs_of(is_solid(profile)).astype(np.float64)
     return profile.start + profile.step * ends[(ends[:, 1] - ends[:, 0]) * profile.step >= _PIECE]
 
 
 def _corner_gap(
-    profile: WallProfile, free: Float, edge: float, sign: int, meets: Float, farthest: float
+    profile: WallProfile, free: Float, edge: float, sign: int, meets: Sequence[float], farthest: float
 ) -> Aperture | None:
     """The opening from ``edge`` to the crossing wall ahead, or to where free space ends before it.
 
     :param farthest: metres to the crossing wall.
     """
-    ahead = (meets - edge) * sign
-    ahead = ahead[ahead > _JAMB]
-    if len(ahead) == 0 or ahead.min() > farthest:
+    ahead = min((d for other in meets if (d := (other - edge) * sign) > _JAMB), default=np.inf)
+    if ahead > farthest:
         return None
-    low, high = sorted((edge, edge + sign * float(ahead.min())))
+    low, high = sorted((edge, edge + sign * ahead))
     a, b = (round((v - profile.start) / profile.step) for v in (low, high))
     open_ = np.flatnonzero(free[a:b] > _FREE)
     if len(open_) * profile.step < _CORNER_PASSAGE:
@@ -231,18 +243,17 @@ def _edges(profile: WallProfile, first: int, last: int) -> tuple[float, float]:
 def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[Aperture]:
     """Openings that lie inside a wall run: nothing below 2 m, wall above, free space through."""
     out = []
-    for start, end in walls:
-        a, b = (round((v - profile.start) / profile.step) for v in (start, end))
-        empty = ~is_solid(profile)[a:b]
-        for i, j in np.flatnonzero(
-            np.diff(np.concatenate([[False], empty, [False]]).astype(np.int8))
-        ).reshape(-1, 2):
-            i, j = i + a, j + a
-            width = (j - i) * profile.step
-            if not config.min_width <= width <= config.max_opening or i == a or j == b:
-                continue
-            if profile.through[i:j].mean() > 0.3:
-                out.append((*_edges(profile, int(i), int(j)), float((profile.high[i:j] > 0).mean())))
+    empty = [
+        (i, j)
+        for i, j in runs_of(~is_solid(profile)).tolist()
+        if config.min_width <= (j - i) * profile.step <= config.max_opening
+        and profile.through[i:j].mean() > 0.3
+    ]
+    for wall in walls.tolist() if empty else []:
+        a, b = (round((v - profile.start) / profile.step) for v in wall)
+        for i, j in empty:
+            if a < i and j < b:
+                out.append((*_edges(profile, i, j), float((profile.high[i:j] > 0).mean())))
     return out
 
 

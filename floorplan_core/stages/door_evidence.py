@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.columns import count_bits, height_mask, levels_in_any
 from floorplan_core.model import LayoutPlane, WallProfile
 from floorplan_core.model.evidence import Evidence
 
@@ -175,7 +175,7 @@ def _seen_low(plane: LayoutPlane, evidence: Evidence) -> Float:
     at = plane.offset - plane.facing.sign * np.arange(_NEAR[0], _NEAR[1] + 1e-6, evidence.fine)
     columns = ((at - evidence.origin[axis]) / evidence.fine).astype(int)
     mask = height_mask(*_FOOT)
-    seen = np.bitwise_or.reduce(hits[:, np.unique(np.clip(columns, 0, hits.shape[1] - 1))], axis=1) & mask
+    seen = levels_in_any(hits, np.unique(np.clip(columns, 0, hits.shape[1] - 1))) & mask
     share: Float = count_bits(seen) / int(mask).bit_count()
     return share
 

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig, PlanesConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask, levels_in_all
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Facing, LayoutPlane, LayoutSegment, WallProfile
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.layout_segments import SegmentRows, wall_band
@@ -197,15 +198,14 @@ def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
     columns = np.unique(columns[(columns >= 0) & (columns < free.shape[1])])
     if len(columns) == 0:
         return np.zeros(2 * free.shape[0])
-    through = np.bitwise_and.reduce(free[:, columns], axis=1) & mask
+    through = levels_in_all(free, columns) & mask
     share: Float = count_bits(through) / int(mask).bit_count()
     return np.repeat(share, 2)
 
 
 def _runs(profile: WallProfile, mask: NDArray[np.bool_]) -> Float:
     """(K, 2) start and end in metres of the runs of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
-    return profile.start + edges.astype(np.float64) * profile.step
+    return profile.start + runs_of(mask).astype(np.float64) * profile.step
 
 
 def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) -> Float:
@@ -217,13 +217,12 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     solid = _close(is_solid(profile), 2)
     lintel = (profile.high > 0) & ~solid
     wall = _close(solid | lintel, round(_HOLE / 2 / profile.step))  # beside the jambs a lintel is seen least
-    runs = np.flatnonzero(np.diff(np.concatenate([[False], wall, [False]]).astype(np.int8))).reshape(-1, 2)
     joined: list[list[int]] = []
-    for a, b in runs:
+    for a, b in runs_of(wall).tolist():
         if joined and _is_hidden(profile, joined[-1][1], a, config):
-            joined[-1][1] = int(b)
+            joined[-1][1] = b
         else:
-            joined.append([int(a), int(b)])
+            joined.append([a, b])
     firm = solid | (lintel & ((profile.through < 0.3) | (profile.high >= doors.lintel_depth)))
     firm &= ~_crumbs(profile, joined)
     kept = [t for r in joined if _stands(profile, solid, r) and (t := _trim(firm, r))]
@@ -237,9 +236,13 @@ def is_solid(profile: WallProfile) -> NDArray[np.bool_]:
 
 def _close(mask: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
     """Fill holes of up to ``2 * reach`` cells."""
-    grown = np.convolve(mask, np.ones(2 * reach + 1), mode="same") > 0
-    padded = np.concatenate([np.ones(reach, dtype=bool), grown, np.ones(reach, dtype=bool)])
-    return np.convolve(padded, np.ones(2 * reach + 1), mode="valid") > 2 * reach + 0.5
+    grown = mask.copy()
+    for start, end in runs_of(mask).tolist():
+        grown[max(start - reach, 0) : end + reach] = True
+    closed = grown.copy()
+    for start, end in runs_of(~grown).tolist():  # shrunk by as much, but not from the ends of the row
+        closed[max(start - reach, 0) : end + reach] = False
+    return closed
 
 
 def _is_hidden(profile: WallProfile, a: int, b: int, config: PlanesConfig) -> bool:

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.columns import count_bits, height_mask, levels_in_any
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.door_edges import points_in_boxes
@@ -74,7 +75,7 @@ def _seen(
     ends = plane.offset - plane.facing.sign * np.array(depth)
     low, high = np.floor((np.sort(ends) - evidence.origin[axis]) / evidence.fine).astype(int)
     mask = height_mask(*heights)
-    seen = np.bitwise_or.reduce(hits[:, max(low, 0) : max(high, 0) + 1], axis=1) & mask
+    seen = levels_in_any(hits, range(max(low, 0), min(max(high, 0) + 1, hits.shape[1]))) & mask
     share: Float = count_bits(seen) / int(mask).bit_count()
     return share
 
@@ -87,10 +88,9 @@ def _recesses(plane: LayoutPlane, evidence: Evidence, config: DoorsConfig) -> li
     back = _seen(plane, evidence, _DEPTH, _LEAF)
     above = _seen(plane, evidence, (-_SKIN, _SKIN), _LINTEL) > 0
     foot = _seen(plane, evidence, (-_SKIN, _SKIN), _FOOT)
-    gone = np.concatenate([[False], face < _GONE, [False]]).astype(np.int8)
     flank, jamb = round(_FLANK / fine), round(_JAMB / fine)
     out = []
-    for a, b in np.flatnonzero(np.diff(gone)).reshape(-1, 2):
+    for a, b in runs_of(face < _GONE).tolist():
         fits = config.min_width <= (b - a) * fine <= _WIDEST
         if not fits or (back[a:b] > _THERE).mean() < _COVERED or above[a:b].mean() < _UNDER:
             continue

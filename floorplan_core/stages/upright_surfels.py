@@ -8,15 +8,18 @@ Floor and ceiling, most of all surfels, are passed over once here. Cost: linear 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.geometry.halves import in_halves
 from floorplan_core.model import Facing
 from floorplan_core.model.evidence import Evidence
 
+_WORTH = 200_000  # surfels from which two threads are faster than one
 _SKIN = 1  # cells before a surface that its own noise may fill
 _SIDEWAYS = 0.03  # cosine of the steepest view that still tells from which side a surfel was seen
 
@@ -61,7 +64,15 @@ def upright_surfels(evidence: Evidence, low: float, band: np.uint64) -> UprightS
     """Those higher than ``low`` metres and not above the levels of ``band``, within the grid."""
     ny, nx = evidence.hits.shape
     high = LEVEL * int(band).bit_length()
-    found = _upright(evidence.xyz, evidence.view, low, high, evidence.origin, evidence.fine, ny, nx)
+    parts: dict[int, tuple[NDArray[Any], ...]] = {}
+
+    def look_at(start: int, stop: int) -> None:
+        xyz, view = evidence.xyz[start:stop], evidence.view[start:stop]
+        row, *rest = _upright(xyz, view, low, high, evidence.origin, evidence.fine, ny, nx)
+        parts[start] = row + np.int32(start), *rest
+
+    in_halves(look_at, len(evidence.xyz), _WORTH)
+    found = (np.concatenate(part) for part in zip(*(parts[k] for k in sorted(parts)), strict=True))
     return UprightSurfels(evidence, band, *found)
 
 
