@@ -51,6 +51,20 @@ class InputConfig(Section):
         return ("no", "yes")[value] if isinstance(value, bool) else value
 
 
+class DriftConfig(Section):
+    """Correction of a drifting trajectory (SL-LMS), before the points are put together."""
+
+    correct: bool = setting(
+        False, "", "Find the simplest building that explains what was seen, and move the path to fit it."
+    )
+    keyframe: float = setting(1.0, "m", "Path between keyframes, within which drift is nothing.", gt=0.1, le=10)
+    odometry: float = setting(0.03, "m/m", "Error of the path for each metre of it.", gt=0, le=0.5)
+    heading: float = setting(0.05, "deg/m", "Error of its heading for each metre.", gt=0, le=10)
+    reach: float = setting(
+        1.0, "m", "Sightings of one wall differ by no more than this once near ones are joined.", gt=0, le=5
+    )
+
+
 class FrameConfig(Section):
     """Manhattan frame: gravity and yaw."""
 
@@ -297,6 +311,7 @@ class Config(Section):
     """All settings. ``Config()`` holds the defaults, ``Config.load`` reads YAML; see also ``with_values``."""
 
     input: InputConfig = InputConfig()
+    drift: DriftConfig = DriftConfig()
     frame: FrameConfig = FrameConfig()
     storeys: StoreysConfig = StoreysConfig()
     voxels: VoxelConfig = VoxelConfig()

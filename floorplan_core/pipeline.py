@@ -382,6 +382,11 @@ def integrate_all(
 ) -> tuple[FloorPlanner, float]:
     """A planner that has integrated every chunk, and the seconds that this took."""
     observer = observer or Observer()
+    if config is not None and config.drift.correct:
+        from floorplan_core.drift import corrected
+
+        reconstruction = corrected(reconstruction, config, observer)
+        observer.warning(reconstruction.assumptions[-1])
     planner = FloorPlanner(config, observer, reconstruction.name, reconstruction.local_frame)
     planner.map.expect(reconstruction.point_count or 0)
     began, done = time.perf_counter(), 0
