@@ -57,7 +57,7 @@ class DriftConfig(Section):
     correct: bool = setting(
         False, "", "Find the simplest building that explains what was seen, and move the path to fit it."
     )
-    keyframe: float = setting(1.0, "m", "Path between keyframes, within which drift is nothing.", gt=0.1, le=10)
+    keyframe: float = setting(1.0, "m", "Path of a keyframe; drift within it is nothing.", gt=0.1, le=10)
     odometry: float = setting(0.03, "m/m", "Error of the path for each metre of it.", gt=0, le=0.5)
     heading: float = setting(0.05, "deg/m", "Error of its heading for each metre.", gt=0, le=10)
     reach: float = setting(

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import Config
+from floorplan_core.drift import as_configured
 from floorplan_core.errors import NoPlanError, UsageError
 from floorplan_core.model import (
     Door,
@@ -382,11 +383,7 @@ def integrate_all(
 ) -> tuple[FloorPlanner, float]:
     """A planner that has integrated every chunk, and the seconds that this took."""
     observer = observer or Observer()
-    if config is not None and config.drift.correct:
-        from floorplan_core.drift import corrected
-
-        reconstruction = corrected(reconstruction, config, observer)
-        observer.warning(reconstruction.assumptions[-1])
+    reconstruction = as_configured(reconstruction, config or Config(), observer)
     planner = FloorPlanner(config, observer, reconstruction.name, reconstruction.local_frame)
     planner.map.expect(reconstruction.point_count or 0)
     began, done = time.perf_counter(), 0

@@ -80,15 +80,17 @@ class PlanningSession:
         """True where ``config`` changes how points are read or integrated: open the survey anew."""
         if self._grid_map is not None:
             return False
-        return (config.input, config.voxels) != (self._read_with.input, self._read_with.voxels)
+        read = self._read_with
+        return (config.input, config.drift, config.voxels) != (read.input, read.drift, read.voxels)
 
     def read(self, observer: Observer, keep: Keep | None = None) -> None:
         """Integrate all points; ``keep`` sees every chunk. Cancelled half way, it begins anew next time."""
         if self.ready:
             return
+        from floorplan_core.drift import as_configured
         from floorplan_core.pipeline import FloorPlanner
 
-        survey = self.reconstruction
+        survey = self.reconstruction = as_configured(self.reconstruction, self._read_with, observer)
         planner = FloorPlanner(self._read_with, observer, survey.name, survey.local_frame)
         planner.map.expect(survey.point_count or 0)
         began, done = time.perf_counter(), 0

@@ -16,6 +16,7 @@ LEFT_WIDTH = 96  # px, so that the bar does not dance
 FULL = 1000
 STAGES = {
     "read": "Reading points",
+    "drift": "Correcting the path",
     "frame": "Finding the axes",
     "storeys": "Finding the storeys",
     "segments": "Layout segments",

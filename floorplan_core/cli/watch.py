@@ -61,12 +61,14 @@ def watch(
 ) -> None:
     """Replay or follow a run and write a numbered plan each interval, timeline.json and a film strip."""
     from floorplan_core.cli.planning import announce_compilation
-    from floorplan_core.errors import NoPlanError
+    from floorplan_core.errors import NoPlanError, UsageError
     from floorplan_core.files import output_folder
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
     observer = console.observer(bars=False)  # a line for each interval instead
+    if settings.drift.correct:
+        raise UsageError("drift.correct needs the whole run: plan it with 'floorcast plan' afterwards.")
     with output_folder(out):  # made now, and removed again if nothing comes of it
         run, intervals = open_run(survey, trajectory, every, follow, settings, observer)
         announce_compilation(observer)

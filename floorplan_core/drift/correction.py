@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from floorplan_core.drift.keyframes import Keyframes, cut_path, gather
 from floorplan_core.drift.model_selection import STEP_FLOOR, AxisProblem, solve_axis
 from floorplan_core.drift.sightings import Sightings, find_sightings, headings, keyframe_patches
 from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.cell_normals import CellNormals
 from floorplan_core.model import PointChunk, Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
@@ -33,6 +35,15 @@ class Correction:
     sightings: int
 
 
+def as_configured(survey: Reconstruction, config: Config, observer: Observer) -> Reconstruction:
+    """The survey as it is, or corrected where the settings ask for that; what was done is reported."""
+    if not config.drift.correct:
+        return survey
+    done = corrected(survey, config, observer)
+    observer.warning(done.assumptions[-1])
+    return done
+
+
 def corrected(survey: Reconstruction, config: Config, observer: Observer) -> Reconstruction:
     """The survey with its trajectory, and the points with it, where the walls say that they were.
 
@@ -43,13 +54,14 @@ def corrected(survey: Reconstruction, config: Config, observer: Observer) -> Rec
         raise NoPlanError(
             f"{survey.name} has no trajectory that could be corrected; leave drift.correct at false."
         )
+    began = time.perf_counter()
     observer.stage_started("drift")
     keyframes = cut_path(trajectory, config.drift.keyframe)
     rotation, points = _frame(survey, keyframes, config, observer)
     patches = keyframe_patches(points, keyframes, rotation, config.frame)
     correction = find_correction(patches, keyframes, rotation, config.drift)
     moves = scan_moves(correction, keyframes, trajectory, rotation)
-    observer.stage_finished("drift", 0.0)
+    observer.stage_finished("drift", time.perf_counter() - began)
     largest = float(np.linalg.norm(correction.shift, axis=1).max())
     note = (
         f"The trajectory was corrected by up to {largest:.2f} m and "
@@ -81,7 +93,7 @@ def _frame(
 
 
 def find_correction(
-    patches: list, keyframes: Keyframes, rotation: Float, config: DriftConfig
+    patches: Sequence[CellNormals], keyframes: Keyframes, rotation: Float, config: DriftConfig
 ) -> Correction:
     """Headings from the walls of each keyframe, then the three axes one by one."""
     length = np.diff(keyframes.path)
@@ -95,7 +107,8 @@ def find_correction(
     for axis in range(3):
         problem = _problem(sightings, axis, start, step[:, axis], sigma)
         positions, plane = solve_axis(problem, tuple(r * config.reach for r in ROUNDS))
-        shift[:, axis] = positions - (origin[:, axis] - origin[0, axis])
+        moved = positions - origin[:, axis]
+        shift[:, axis] = moved - moved.mean()  # nothing fixes the whole: it stays where it was, on average
         planes += int(plane.max()) + 1 if len(plane) else 0
     return Correction(shift, turn, planes, len(sightings))
 

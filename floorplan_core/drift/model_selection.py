@@ -3,8 +3,8 @@
 Source: Shariati, Pfrommer, Taylor, *Simultaneous localization and layout model selection in Manhattan worlds*
 (2018). Orientations are known, so positions are linear and each axis is a small problem of its own. Unknown
 are the positions ``p`` (K) of the keyframes and an offset ``m`` for each sighting; measured are the steps
-between keyframes and the distance of each sighting. The sum of ``w_ij |m_i - m_j|`` over pairs that may be one
-plane is minimised within the noise of the measurements: pairs that land on one offset are one plane, and
+between keyframes and the distance of each sighting. The sum of ``w_ij |m_i - m_j|`` over pairs that may be
+one plane is minimised within the noise of the measurements: pairs that land on one offset are one plane, and
 loop closure falls out of it. Then least squares with these equalities; plane by plane more pairs come into
 reach, and it repeats.
 """
@@ -91,9 +91,7 @@ def least_squares(
     return np.concatenate([[0.0], x[: K - 1]]), np.asarray(x[K - 1 :])
 
 
-def candidate_pairs(
-    problem: AxisProblem, plane: Index, offsets: Float, reach: float
-) -> tuple[Index, Float]:
+def candidate_pairs(problem: AxisProblem, plane: Index, offsets: Float, reach: float) -> tuple[Index, Float]:
     """(N, 2) pairs of planes that may be one, and the weights that the paper gives them."""
     P = len(offsets)
     mass = np.bincount(plane, problem.mass, P)
@@ -116,7 +114,7 @@ def candidate_pairs(
 
 
 def select(problem: AxisProblem, plane: Index, pairs: Index, weights: Float) -> Index:
-    """The planes after those that land on one offset are made one, at the largest strength within the noise."""
+    """The planes after those that land on one offset are made one, as strongly as the noise allows."""
     best = plane
     for strength in STRENGTHS:
         positions, offsets = _draw_together(problem, plane, pairs, strength * weights)
@@ -126,9 +124,7 @@ def select(problem: AxisProblem, plane: Index, pairs: Index, weights: Float) -> 
     return best
 
 
-def _draw_together(
-    problem: AxisProblem, plane: Index, pairs: Index, weights: Float
-) -> tuple[Float, Float]:
+def _draw_together(problem: AxisProblem, plane: Index, pairs: Index, weights: Float) -> tuple[Float, Float]:
     """Least squares plus ``weights`` times the absolute distances of the pairs."""
     pull = weights / SMALLEST / 10
     positions, offsets = least_squares(problem, plane, pairs, pull)

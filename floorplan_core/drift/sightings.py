@@ -126,9 +126,15 @@ def find_sightings(patches: Sequence[CellNormals], turn: Float) -> Sightings:
                 extent = centre[group].min(axis=0), centre[group].max(axis=0)
                 rows.append((k, axis, facing, distance, float(part.weight[group].sum()), *extent))
     columns = list(zip(*rows, strict=True)) if rows else [()] * 7
-    kinds = (np.intp, np.intp, np.intp, np.float64, np.float64, np.float64, np.float64)
-    arrays = [np.array(c, dtype=kind) for c, kind in zip(columns, kinds, strict=True)]
-    return Sightings(*arrays[:5], arrays[5].reshape(-1, 3), arrays[6].reshape(-1, 3))
+    return Sightings(
+        np.array(columns[0], dtype=np.intp),
+        np.array(columns[1], dtype=np.intp),
+        np.array(columns[2], dtype=np.intp),
+        np.array(columns[3], dtype=np.float64),
+        np.array(columns[4], dtype=np.float64),
+        np.array(columns[5], dtype=np.float64).reshape(-1, 3),
+        np.array(columns[6], dtype=np.float64).reshape(-1, 3),
+    )
 
 
 def _surfaces(

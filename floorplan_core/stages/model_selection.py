@@ -2,7 +2,7 @@
 
 With given poses every segment of one facing is an interval of offsets in which its plane must lie; the fewest
 planes are the fewest points that pierce all intervals, which a sweep over their right ends finds exactly in
-O(n log n). Correcting a drifting trajectory (SL-LMS proper) takes this module's place in the pipeline.
+O(n log n). Where the trajectory drifts, :mod:`floorplan_core.drift` corrects it first (SL-LMS proper).
 """
 
 from __future__ import annotations

@@ -456,8 +456,16 @@
    <translation>Korrigiert</translation>
   </message>
   <message>
+   <source>Correcting the path</source>
+   <translation>Weg wird korrigiert</translation>
+  </message>
+  <message>
    <source>Correction</source>
    <translation>Korrektur</translation>
+  </message>
+  <message>
+   <source>Correction of a drifting trajectory (SL-LMS), before the points are put together.</source>
+   <translation>Korrektur einer driftenden Trajektorie (SL-LMS), bevor die Punkte zusammengesetzt werden.</translation>
   </message>
   <message>
    <source>Corridor {0}</source>
@@ -572,6 +580,10 @@
    <translation>Eine Wand zeichnen, die das Programm nicht kennt: zwei Klicks.</translation>
   </message>
   <message>
+   <source>Drift</source>
+   <translation>Drift</translation>
+  </message>
+  <message>
    <source>Drop a survey or a project here</source>
    <translation>Aufnahme oder Projekt hier ablegen</translation>
   </message>
@@ -586,6 +598,14 @@
   <message>
    <source>English</source>
    <translation>English</translation>
+  </message>
+  <message>
+   <source>Error of its heading for each metre.</source>
+   <translation>Fehler ihrer Richtung je Meter.</translation>
+  </message>
+  <message>
+   <source>Error of the path for each metre of it.</source>
+   <translation>Fehler des Weges je Meter.</translation>
   </message>
   <message>
    <source>Esc</source>
@@ -666,6 +686,10 @@
   <message>
    <source>Find a command…</source>
    <translation>Befehl suchen…</translation>
+  </message>
+  <message>
+   <source>Find the simplest building that explains what was seen, and move the path to fit it.</source>
+   <translation>Das einfachste Gebäude finden, das alles Gesehene erklärt, und den Weg danach ausrichten.</translation>
   </message>
   <message>
    <source>Find the survey…</source>
@@ -814,6 +838,10 @@
   <message>
    <source>Halls and long ranges</source>
    <translation>Hallen und große Weiten</translation>
+  </message>
+  <message>
+   <source>Heading</source>
+   <translation>Richtung</translation>
   </message>
   <message>
    <source>Height</source>
@@ -970,6 +998,10 @@
   <message>
    <source>Kept whatever the machine finds</source>
    <translation>Wird behalten, was das Programm auch findet</translation>
+  </message>
+  <message>
+   <source>Keyframe</source>
+   <translation>Keyframe</translation>
   </message>
   <message>
    <source>Kind</source>
@@ -1396,6 +1428,10 @@
    <translation>Belegt</translation>
   </message>
   <message>
+   <source>Odometry</source>
+   <translation>Odometrie</translation>
+  </message>
+  <message>
    <source>Of all regions, to the inside faces of the walls</source>
    <translation>Aller Regionen, bis zu den Innenseiten der Wände</translation>
   </message>
@@ -1540,6 +1576,10 @@
    <translation>Flecken einer Fläche, die näher beieinander liegen, sind ein Wandstück.</translation>
   </message>
   <message>
+   <source>Path of a keyframe; drift within it is nothing.</source>
+   <translation>Weg eines Keyframes; die Drift darin ist unerheblich.</translation>
+  </message>
+  <message>
    <source>Perimeter</source>
    <translation>Umfang</translation>
   </message>
@@ -1674,6 +1714,10 @@
   <message>
    <source>Rays through a voxel that make it free.</source>
    <translation>Strahlen durch ein Voxel, die es frei machen.</translation>
+  </message>
+  <message>
+   <source>Reach</source>
+   <translation>Reichweite</translation>
   </message>
   <message>
    <source>Read the survey once more and plan it from nothing.</source>
@@ -2124,6 +2168,10 @@
    <translation>Seiten, von denen weniger als die Hälfte gesehen wurde; sie sind gestrichelt</translation>
   </message>
   <message>
+   <source>Sightings of one wall differ by no more than this once near ones are joined.</source>
+   <translation>Sichtungen einer Wand weichen höchstens so weit ab, wenn nahe schon vereint sind.</translation>
+  </message>
+  <message>
    <source>Size</source>
    <translation>Größe</translation>
   </message>
@@ -2316,8 +2364,8 @@
    <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
   </message>
   <message>
-   <source>The file's axes are left-handed; its plan would come out mirrored otherwise.</source>
-   <translation>Die Achsen der Datei sind linkshändig; ihr Plan erschiene sonst gespiegelt.</translation>
+   <source>The file's axes are left-handed, its plan would be a mirror image; auto: where its poses say so.</source>
+   <translation>Die Achsen der Datei sind linkshändig, ihr Plan wäre ein Spiegelbild; auto: wo ihre Posen es sagen.</translation>
   </message>
   <message>
    <source>The file's up axis.</source>
