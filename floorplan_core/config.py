@@ -103,7 +103,7 @@ class VoxelConfig(Section):
     )
     min_misses: int = setting(1, "rays", "Rays through a voxel that make it free.", ge=1, le=100)
     hit_ratio: float = setting(
-        0.15, "", "Share of hits among hits and misses from which a voxel is occupied.", gt=0, le=1
+        0.15, "", "Share of hits among hits and misses from which a voxel is occupied.", ge=0.005, le=1
     )
 
 

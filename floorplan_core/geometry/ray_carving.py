@@ -1,13 +1,15 @@
 """Free space by ray casting: counts the rays that pass through each voxel of a sparse map.
 
-Voxels are held in blocks of 16 x 16 x 16, found through a hash; a ray looks a block up only when it enters
-one. It is sampled once a voxel along its longest axis (a 3-D Bresenham line): no branch depends on the data,
-which is three times faster than visiting every voxel that it clips, and walls are grazed less. Counting is
+Voxels are held in blocks of 16 x 16 x 16, found through a hash. A ray is sampled once a voxel along its
+longest axis (a 3-D Bresenham line): no branch depends on the data, and walls are grazed less than by
+visiting every voxel that it clips. All places of a ray are computed first, many in one instruction; a
+:class:`_Window` over what was seen so far, a plain array, then gives the block of each. Counting is
 order-free.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,27 +17,56 @@ from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.halves import in_halves
-from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, pack, spread
+from floorplan_core.geometry.ray_columns import sample_columns
+from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, find_slot, pack
 
 Float = NDArray[np.float64]
 
 BLOCK = 16
+MOST = 255  # rays at which a voxel's count ends
 _VOLUME = BLOCK**3
-_MOST = np.uint16(65535)
+_MOST = np.uint8(MOST)
 SHIFT = 24  # rays are followed in fixed point: 24 bits of fraction of a voxel
 BLOCK_SHIFT = SHIFT + 4
 ONE = float(1 << SHIFT)
+_TOGETHER = 16  # places computed in one go: a ray is rounded up to so many
+_LENGTH = 512  # places of a ray that are kept at a time
+_LARGEST = 1 << 22  # blocks of a window: 1600 x 800 x 13 m. What lies beyond is looked up in the hash
+_U = np.uint64
+
+
+@dataclass(frozen=True)
+class _Window:
+    """A box of blocks: the number of each in the pool, -1 where the hash has to be asked."""
+
+    ids: NDArray[np.int32]  # (2 ** (bx + by + bz),)
+    place: NDArray[np.int64]  # (6,) block of the lower corner, and bits bx, by, bz of its sides
+
+    @staticmethod
+    def over(low: NDArray[np.int64], high: NDArray[np.int64]) -> _Window:
+        """The window over the blocks ``low`` to ``high``, with room around them."""
+        bits = np.array([int(n).bit_length() for n in high - low + 3], dtype=np.int64)
+        corner = (low + high + 1) // 2 - (1 << bits) // 2
+        return _Window(np.full(1 << int(bits.sum()), -1, dtype=np.int32), np.concatenate([corner, bits]))
+
+    def holds(self, low: NDArray[np.int64], high: NDArray[np.int64]) -> bool:
+        """True where the blocks ``low`` to ``high`` and those beside them lie in the window."""
+        corner, bits = self.place[:3], self.place[3:]
+        return bool((low > corner).all() and (high + 1 < corner + (1 << bits)).all())
 
 
 class MissMap:
-    """Rays through each voxel, saturating at 65535."""
+    """Rays through each voxel; counts end at ``MOST``."""
 
     def __init__(self, size: float) -> None:
         self.size = size
         self._keys = np.full(1 << 10, EMPTY, dtype=np.int64)
         self._ids = np.zeros(1 << 10, dtype=np.int32)
-        self._pool = np.zeros((1 << 8, _VOLUME), dtype=np.uint16)
+        self._pool = np.zeros((1 << 8, _VOLUME), dtype=np.uint8)
         self._used = 0
+        self._window = _Window(np.full(1, -1, dtype=np.int32), np.zeros(6, dtype=np.int64))
+        self._reach = np.zeros((2, 0), dtype=np.int64)  # blocks that the window is over; none yet
+        self._beyond = False  # True: the window is as large as it may be
 
     @property
     def blocks(self) -> int:
@@ -52,20 +83,33 @@ class MissMap:
                 points,
                 scan,
                 origins,
-                self.size,
-                limits[0],
-                limits[1],
-                self._keys,
-                self._ids,
+                (self.size, limits[0], limits[1]),
+                (self._keys, self._ids),
                 self._pool,
+                (self._window.ids, self._window.place, self._beyond),
                 self._used,
                 start,
             )
-            if start < len(points):
+            if start < len(points) and not self._widen(points[start:], scan[start:], origins, limits):
                 self._grow()
 
+    def _widen(
+        self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
+    ) -> bool:
+        """Lay the window over all rays; False where it holds them already, or would become too large."""
+        low, high = _reach(points, scan, origins, self.size, *limits)
+        if self._beyond or self._window.holds(low, high):
+            return False
+        if self._reach.size:
+            low, high = np.minimum(low, self._reach[0]), np.maximum(high, self._reach[1])
+        window = _Window.over(low, high) if np.prod(high - low + 3.0) < _LARGEST / 8 else None
+        self._beyond = window is None
+        if window is not None:
+            self._window, self._reach = window, np.stack([low, high])
+        return True
+
     def _grow(self) -> None:
-        pool = np.zeros((2 * len(self._pool), _VOLUME), dtype=np.uint16)
+        pool = np.zeros((2 * len(self._pool), _VOLUME), dtype=np.uint8)
         pool[: self._used] = self._pool[: self._used]
         keys = np.full(4 * len(pool), EMPTY, dtype=np.int64)
         ids = np.zeros(len(keys), dtype=np.int32)
@@ -91,6 +135,7 @@ class MissMap:
         )
         other._pool[: other._used] = 0
         other._keys[:] = EMPTY
+        other._window.ids[:] = -1
         other._used = 0
 
     def column_bits(
@@ -109,30 +154,69 @@ class MissMap:
         coordinates; column [iy, ix] starts at ``origin + cell * [ix, iy]``, level k at ``z0 + k * cell``.
         """
         few, many = np.zeros(shape, dtype=np.uint64), np.zeros(shape, dtype=np.uint64)
-        r = np.ascontiguousarray(rotation)
         tables = (self._keys, self._ids, self._pool, self.size)
+        grid = (np.ascontiguousarray(rotation), origin, cell, z0, levels)
 
         def rows(start: int, stop: int) -> None:
-            _column_bits(*tables, r, origin, cell, z0, levels, least[0], least[1], few, many, start, stop)
+            sample_columns(tables, grid, least, few, many, start, stop)
 
         in_halves(rows, shape[0], worth=50)
         return few, many
 
 
 @njit(cache=True, inline="always")
-def _find(key, keys):  # type: ignore[no-untyped-def]
-    mask = len(keys) - 1
-    slot = spread(key) & mask
-    while keys[slot] != key and keys[slot] != EMPTY:
-        slot = (slot + 1) & mask
-    return slot
+def _open(bx, by, bz, keys, ids, used):  # type: ignore[no-untyped-def]
+    """Number of a block in the pool, a new one where it is the first time; and how many blocks there are."""
+    key = pack(bx, by, bz)
+    slot = find_slot(key, keys)
+    if keys[slot] == EMPTY:
+        keys[slot], ids[slot] = key, used
+        used += 1
+    return ids[slot], used
+
+
+@njit(cache=True, inline="always")
+def _ends(px, py, pz, ox, oy, oz, size, nearest, farthest):  # type: ignore[no-untyped-def]
+    """True where a ray from o to p (voxels) is no longer and no shorter than may be, and within the keys."""
+    dx, dy, dz = px - ox, py - oy, pz - oz
+    r2 = (dx * dx + dy * dy + dz * dz) * size * size
+    edge = (BIAS - BLOCK) * 1.0
+    return (
+        r2 >= nearest * nearest  # also leaves out what is not a number
+        and r2 <= farthest * farthest
+        and max(abs(px), abs(ox)) <= edge
+        and max(abs(py), abs(oy)) <= edge
+        and max(abs(pz), abs(oz)) <= edge
+    )
 
 
 @njit(cache=True, nogil=True)
-def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used, start):  # type: ignore[no-untyped-def]
-    near2, far2, inverse = nearest * nearest, farthest * farthest, 1.0 / size
-    edge = (BIAS - BLOCK) * 1.0
-    counts = pool.reshape(-1)
+def _reach(points, scan, origins, size, nearest, farthest):  # type: ignore[no-untyped-def]
+    """Lowest and highest block of all rays; equal where there is none."""
+    low, high = np.full(3, BIAS, dtype=np.int64), np.full(3, -BIAS, dtype=np.int64)
+    for i in range(len(points)):
+        if scan[i] < 0:
+            continue
+        p, o = points[i] * (1.0 / size), origins[scan[i]] * (1.0 / size)
+        if _ends(p[0], p[1], p[2], o[0], o[1], o[2], size, nearest, farthest):
+            for k in range(3):
+                a, b = int(np.floor(p[k])) >> 4, int(np.floor(o[k])) >> 4
+                low[k], high[k] = min(low[k], a, b), max(high[k], a, b)
+    if low[0] > high[0]:
+        low[:], high[:] = 0, 0
+    return low, high
+
+
+@njit(cache=True, nogil=True)
+def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  # type: ignore[no-untyped-def]
+    """Follow the rays from ``start`` on; ends before the one for which pool or window have no room."""
+    size, nearest, farthest = ranges
+    keys, ids = blocks
+    near, place, beyond = window
+    inverse, counts = 1.0 / size, pool.reshape(-1)
+    cells, voxels = np.empty(_LENGTH, dtype=np.uint32), np.empty(_LENGTH, dtype=np.uint32)
+    cx, cy, cz = place[0], place[1], place[2]
+    wide, deep, high = (1 << place[3]) - 1, (1 << place[4]) - 1, (1 << place[5]) - 1
     for i in range(start, len(points)):
         if scan[i] < 0:
             continue
@@ -142,45 +226,95 @@ def _carve(points, scan, origins, size, nearest, farthest, keys, ids, pool, used
             origins[scan[i], 2] * inverse,
         )
         px, py, pz = points[i, 0] * inverse, points[i, 1] * inverse, points[i, 2] * inverse
-        dx, dy, dz = px - ox, py - oy, pz - oz
-        r2 = (dx * dx + dy * dy + dz * dz) * size * size
-        if not (r2 >= near2 and r2 <= far2):  # also leaves out what is not a number
-            continue
-        if max(abs(px), abs(ox)) > edge or max(abs(py), abs(oy)) > edge or max(abs(pz), abs(oz)) > edge:
+        if not _ends(px, py, pz, ox, oy, oz, size, nearest, farthest):
             continue
         ex, ey, ez = int(np.floor(px)), int(np.floor(py)), int(np.floor(pz))
         x, y, z = int(np.floor(ox * ONE)), int(np.floor(oy * ONE)), int(np.floor(oz * ONE))
-        entered = (
-            abs((ex >> 4) - (x >> BLOCK_SHIFT))
-            + abs((ey >> 4) - (y >> BLOCK_SHIFT))
-            + abs((ez >> 4) - (z >> BLOCK_SHIFT))
-            + 4
+        # Blocks of both ends in the window. Rounding may take a ray one block further: the outermost are out.
+        ax, ay, az = (x >> BLOCK_SHIFT) - cx, (y >> BLOCK_SHIFT) - cy, (z >> BLOCK_SHIFT) - cz
+        bx, by, bz = (ex >> 4) - cx, (ey >> 4) - cy, (ez >> 4) - cz
+        entered = abs(ax - bx) + abs(ay - by) + abs(az - bz) + 4
+        inside = (
+            (min(ax, bx) > 0 and max(ax, bx) < wide)
+            and (min(ay, by) > 0 and max(ay, by) < deep)
+            and (min(az, bz) > 0 and max(az, bz) < high)
         )
-        if used + entered > len(pool):  # the caller makes room and resumes at this ray
+        if used + entered > len(pool) or not (inside or beyond):
             return i, used
+        dx, dy, dz = px - ox, py - oy, pz - oz
         longest = max(abs(dx), abs(dy), abs(dz), 1e-9)
         sx, sy, sz = int(dx / longest * ONE), int(dy / longest * ONE), int(dz / longest * ONE)
-        inx, iny, inz, block = ~x, y, z, 0  # a place in the block that the ray is in; in none at first
-        for _ in range(int(longest) + 1):
-            if ((x ^ inx) | (y ^ iny) | (z ^ inz)) >> BLOCK_SHIFT != 0:
-                inx, iny, inz = x, y, z
-                key = pack(x >> BLOCK_SHIFT, y >> BLOCK_SHIFT, z >> BLOCK_SHIFT)
-                slot = _find(key, keys)
-                if keys[slot] == EMPTY:
-                    keys[slot], ids[slot] = key, used
-                    used += 1
-                block = ids[slot] * _VOLUME
-            vx, vy, vz = x >> SHIFT, y >> SHIFT, z >> SHIFT
-            if ((vx ^ ex) | (vy ^ ey) | (vz ^ ez)) == 0:
-                break
-            # an unsigned index: numba need not ask whether it counts from the end
-            at = np.uint64(block | ((vx & 15) << 8) | ((vy & 15) << 4) | (vz & 15))
-            if counts[at] < _MOST:
-                counts[at] += np.uint16(1)
-            x += sx
-            y += sy
-            z += sz
+        n = int(longest)  # steps to the voxel of the point, which only the last can reach: or there are n + 1
+        n += (((x + n * sx) >> SHIFT) ^ ex | ((y + n * sy) >> SHIFT) ^ ey | ((z + n * sz) >> SHIFT) ^ ez) != 0
+        if not inside:
+            used = _follow_far(x, y, z, sx, sy, sz, n, keys, ids, counts, used)
+            continue
+        x, y, z = x - (cx << BLOCK_SHIFT), y - (cy << BLOCK_SHIFT), z - (cz << BLOCK_SHIFT)
+        for first in range(0, n, _LENGTH):
+            part = min(n - first, _LENGTH)
+            _locate(
+                _U(x + first * sx),
+                _U(y + first * sy),
+                _U(z + first * sz),
+                _U(sx),
+                _U(sy),
+                _U(sz),
+                part,
+                _U(place[4] + place[5]),
+                _U(place[5]),
+                cells,
+                voxels,
+            )
+            for k in range(part):
+                block = near[cells[k]]
+                if block < 0:
+                    c = int(cells[k])
+                    bx = cx + (c >> (place[4] + place[5]))
+                    block, used = _open(bx, cy + ((c >> place[5]) & deep), cz + (c & high), keys, ids, used)
+                    near[cells[k]] = block
+                at = (_U(block) << _U(12)) | _U(voxels[k])
+                if counts[at] < _MOST:
+                    counts[at] += np.uint8(1)
     return len(points), used
+
+
+@njit(cache=True, nogil=True)
+def _locate(x, y, z, sx, sy, sz, n, row, column, cells, voxels):  # type: ignore[no-untyped-def]
+    """Cell of the window, and voxel of the block, at each of ``n`` steps. All integers are unsigned.
+
+    The inner loop has a fixed length and no branch: the compiler makes a few wide instructions of it.
+    """
+    for first in range(0, n, _TOGETHER):
+        at = _U(first)
+        ax, ay, az = x + at * sx, y + at * sy, z + at * sz
+        for k in range(_TOGETHER):
+            step = _U(k)
+            u, v, w = ax + step * sx, ay + step * sy, az + step * sz
+            cells[at + step] = (
+                ((u >> _U(BLOCK_SHIFT)) << row) | ((v >> _U(BLOCK_SHIFT)) << column) | (w >> _U(BLOCK_SHIFT))
+            )
+            voxels[at + step] = (
+                ((u >> _U(SHIFT - 8)) & _U(0xF00))
+                | ((v >> _U(SHIFT - 4)) & _U(0xF0))
+                | ((w >> _U(SHIFT)) & _U(0xF))
+            )
+
+
+@njit(cache=True, nogil=True)
+def _follow_far(x, y, z, sx, sy, sz, n, keys, ids, counts, used):  # type: ignore[no-untyped-def]
+    """Count one ray that leaves the window: the hash is asked for each block that it enters."""
+    inx, iny, inz, block = ~x, y, z, 0  # a place in the block that the ray is in; in none at first
+    for _ in range(n):
+        if ((x ^ inx) | (y ^ iny) | (z ^ inz)) >> BLOCK_SHIFT != 0:
+            inx, iny, inz = x, y, z
+            block, used = _open(x >> BLOCK_SHIFT, y >> BLOCK_SHIFT, z >> BLOCK_SHIFT, keys, ids, used)
+        at = block * _VOLUME + ((((x >> SHIFT) & 15) << 8) | (((y >> SHIFT) & 15) << 4) | ((z >> SHIFT) & 15))
+        if counts[at] < _MOST:
+            counts[at] += np.uint8(1)
+        x += sx
+        y += sy
+        z += sz
+    return used
 
 
 @njit(cache=True, nogil=True)
@@ -190,16 +324,12 @@ def _mark(points, rays, size, keys, ids, pool, used, start):  # type: ignore[no-
         px, py, pz = points[i, 0], points[i, 1], points[i, 2]
         if not (abs(px) < edge and abs(py) < edge and abs(pz) < edge):  # also leaves out what is not a number
             continue
+        if used >= len(pool):  # the caller makes room and resumes here
+            return i, used
         x, y, z = int(np.floor(px / size)), int(np.floor(py / size)), int(np.floor(pz / size))
-        key = pack(x >> 4, y >> 4, z >> 4)
-        slot = _find(key, keys)
-        if keys[slot] == EMPTY:
-            if used >= len(pool):  # the caller makes room and resumes here
-                return i, used
-            keys[slot], ids[slot] = key, used
-            used += 1
+        block, used = _open(x >> 4, y >> 4, z >> 4, keys, ids, used)
         at = ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)
-        pool[ids[slot], at] = min(int(_MOST), int(pool[ids[slot], at]) + rays)
+        pool[block, at] = min(MOST, int(pool[block, at]) + rays)
     return len(points), used
 
 
@@ -208,13 +338,13 @@ def _merge(keys, ids, pool, used, other_keys, other_ids, other_pool):  # type: i
     for i in range(len(other_keys)):
         if other_keys[i] == EMPTY:
             continue
-        slot = _find(other_keys[i], keys)
+        slot = find_slot(other_keys[i], keys)
         if keys[slot] == EMPTY:
             keys[slot], ids[slot] = other_keys[i], used
             used += 1
         to, there = ids[slot], other_ids[i]
         for k in range(_VOLUME):
-            pool[to, k] = min(np.uint32(_MOST), np.uint32(pool[to, k]) + np.uint32(other_pool[there, k]))
+            pool[to, k] = min(np.uint32(MOST), np.uint32(pool[to, k]) + np.uint32(other_pool[there, k]))
     return used
 
 
@@ -222,36 +352,5 @@ def _merge(keys, ids, pool, used, other_keys, other_ids, other_pool):  # type: i
 def _rehash(keys, ids, new_keys, new_ids):  # type: ignore[no-untyped-def]
     for i in range(len(keys)):
         if keys[i] != EMPTY:
-            slot = _find(keys[i], new_keys)
+            slot = find_slot(keys[i], new_keys)
             new_keys[slot], new_ids[slot] = keys[i], ids[i]
-
-
-@njit(cache=True, nogil=True)
-def _column_bits(  # type: ignore[no-untyped-def]
-    keys, ids, pool, size, rotation, origin, cell, z0, levels, few, many, out, strong, start, stop
-):
-    inverse = 1.0 / size
-    r = rotation * inverse
-    for iy in range(start, stop):
-        gy = origin[1] + (iy + 0.5) * cell
-        for ix in range(out.shape[1]):
-            gx = origin[0] + (ix + 0.5) * cell
-            fx, fy, fz = r[0, 0] * gx + r[1, 0] * gy, r[0, 1] * gx + r[1, 1] * gy, r[0, 2] * gx + r[1, 2] * gy
-            bits, more = np.uint64(0), np.uint64(0)
-            bx, by, bz, block = 1 << 40, 0, 0, -1
-            for k in range(levels):
-                gz = z0 + (k + 0.5) * cell
-                x = int(np.floor(fx + r[2, 0] * gz))
-                y = int(np.floor(fy + r[2, 1] * gz))
-                z = int(np.floor(fz + r[2, 2] * gz))
-                if x >> 4 != bx or y >> 4 != by or z >> 4 != bz:
-                    bx, by, bz = x >> 4, y >> 4, z >> 4
-                    slot = _find(pack(bx, by, bz), keys)
-                    block = ids[slot] if keys[slot] != EMPTY else -1
-                if block >= 0:
-                    rays = pool[block, ((x & 15) << 8) | ((y & 15) << 4) | (z & 15)]
-                    if rays >= few:
-                        bits |= np.uint64(1) << np.uint64(k)
-                    if rays >= many:
-                        more |= np.uint64(1) << np.uint64(k)
-            out[iy, ix], strong[iy, ix] = bits, more

@@ -15,7 +15,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.halves import in_halves
-from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, block_slot, pack, spread
+from floorplan_core.geometry.voxel_keys import BIAS, block_slot, pack, spread
 
 Float = NDArray[np.float64]
 
@@ -25,6 +25,10 @@ COLUMNS = 9  # count, sums of x, y, z, sums of xx, xy, yy, sums of the view's x,
 MOST_POINTS = 200_000  # of a voxel: its sums of squares stay within 32 bits, its mean is long settled
 BLOCK = 5  # voxels on a side of the blocks of a sample
 _START = 1 << 16
+_SPARSE = (
+    4  # slots of the hash for each row: neighbours fill whole stretches of it, so half empty is too full
+)
+_BATCH = 256  # points whose slots are looked up together: what is kept of them fits the first-level cache
 
 
 @dataclass(frozen=True)
@@ -47,8 +51,7 @@ class SurfelMap:
 
     def __init__(self, size: float) -> None:
         self.size = size
-        self._table = np.full(2 * _START, EMPTY, dtype=np.int64)
-        self._row = np.zeros(2 * _START, dtype=np.int32)
+        self._table = np.zeros(_SPARSE * _START, dtype=np.int32)  # row + 1 of each slot; 0: empty
         self._keys = np.zeros(_START, dtype=np.int64)
         self._sums = np.zeros((_START, COLUMNS), dtype=np.int32)
         self._used = 0
@@ -79,7 +82,6 @@ class SurfelMap:
                 limits[0],
                 limits[1],
                 self._table,
-                self._row,
                 self._keys,
                 self._sums,
                 self._used,
@@ -96,7 +98,7 @@ class SurfelMap:
         part._used = len(rows)
         part._keys[: len(rows)], part._sums[: len(rows)] = self._keys[rows], self._sums[rows]
         part.points = int(part._sums[: len(rows), 0].sum())
-        _fill(part._keys, part._used, part._table, part._row)
+        _fill(part._keys, part._used, part._table)
         return part
 
     def _grow(self, factor: int = 2) -> None:
@@ -104,9 +106,8 @@ class SurfelMap:
         keys, sums = np.zeros(capacity, dtype=np.int64), np.zeros((capacity, COLUMNS), dtype=np.int32)
         keys[: self._used], sums[: self._used] = self._keys[: self._used], self._sums[: self._used]
         self._keys, self._sums = keys, sums
-        self._table = np.full(2 * capacity, EMPTY, dtype=np.int64)
-        self._row = np.zeros(2 * capacity, dtype=np.int32)
-        _fill(self._keys, self._used, self._table, self._row)
+        self._table = np.zeros(_SPARSE * capacity, dtype=np.int32)
+        _fill(self._keys, self._used, self._table)
 
     def surfels(self, every: int = 1) -> Surfels:
         """The map as arrays, in the order in which the voxels were first seen.
@@ -136,10 +137,33 @@ class SurfelMap:
 
 
 @njit(cache=True, nogil=True)
-def _insert(points, scan, origins, size, nearest, farthest, table, row, keys, sums, used, start):  # type: ignore[no-untyped-def]
-    mask, added = len(table) - 1, 0
-    near2, far2, inverse = nearest * nearest, farthest * farthest, 1.0 / size
-    for i in range(start, len(points)):
+def _insert(points, scan, origins, size, nearest, farthest, table, keys, sums, used, start):  # type: ignore[no-untyped-def]
+    """Points from ``start`` on, batch by batch; ends before the batch for which there may be no room.
+
+    Neighbours in a file are far apart in the map. Were each point looked up by itself, it would wait for
+    memory three times; the slots of a batch are touched first, one after the other without waiting.
+    """
+    added = 0
+    key, slot = np.empty(_BATCH, dtype=np.int64), np.empty(_BATCH, dtype=np.int64)
+    parts, touched = np.empty((_BATCH, 5), dtype=np.int32), np.zeros(1, dtype=np.int64)
+    for i in range(start, len(points), _BATCH):
+        if used + _BATCH > len(keys):  # the caller makes room and resumes at this point
+            return i, used, added
+        batch = points[i : i + _BATCH]
+        count = _quantise(
+            batch, scan[i : i + _BATCH], origins, size, nearest, farthest, len(table) - 1, key, slot, parts
+        )
+        _touch(slot[:count], table, keys, touched)
+        used = _add(key[:count], slot[:count], parts, table, keys, sums, used)
+        added += count
+    return len(points), used, added
+
+
+@njit(cache=True, nogil=True)
+def _quantise(points, scan, origins, size, nearest, farthest, mask, key, slot, parts):  # type: ignore[no-untyped-def]
+    """Key, first slot, place in the voxel and view of each point that counts; returns how many they are."""
+    count, near2, far2, inverse = 0, nearest * nearest, farthest * farthest, 1.0 / size
+    for i in range(len(points)):
         x, y, z = np.float64(points[i, 0]), np.float64(points[i, 1]), np.float64(points[i, 2])
         if not (np.isfinite(x) and np.isfinite(y) and np.isfinite(z)):
             continue
@@ -155,40 +179,61 @@ def _insert(points, scan, origins, size, nearest, farthest, table, row, keys, su
         if abs(fx) >= BIAS - 1 or abs(fy) >= BIAS - 1 or abs(fz) >= BIAS - 1:
             continue
         ix, iy, iz = int(np.floor(fx)), int(np.floor(fy)), int(np.floor(fz))
-        key = pack(ix, iy, iz)
-        slot = block_slot(ix, iy, iz, mask)
-        while table[slot] != key and table[slot] != EMPTY:
-            slot = (slot + 1) & mask
-        if table[slot] == EMPTY:
-            if used >= len(keys):  # the caller makes room and resumes at this point
-                return i, used, added
-            table[slot], row[slot], keys[used] = key, used, key
-            used += 1
-        r = row[slot]
-        sx, sy, sz = int((fx - ix) * STEPS), int((fy - iy) * STEPS), int((fz - iz) * STEPS)
-        if sums[r, 0] < MOST_POINTS:
-            sums[r, 0] += 1
-            sums[r, 1] += sx
-            sums[r, 2] += sy
-            sums[r, 3] += sz
-            sums[r, 4] += sx * sx
-            sums[r, 5] += sx * sy
-            sums[r, 6] += sy * sy
-            sums[r, 7] += int(np.rint(vx))
-            sums[r, 8] += int(np.rint(vy))
-        added += 1
-    return len(points), used, added
+        key[count], slot[count] = pack(ix, iy, iz), block_slot(ix, iy, iz, mask)
+        parts[count, 0], parts[count, 1] = int((fx - ix) * STEPS), int((fy - iy) * STEPS)
+        parts[count, 2] = int((fz - iz) * STEPS)
+        parts[count, 3], parts[count, 4] = int(np.rint(vx)), int(np.rint(vy))
+        count += 1
+    return count
 
 
 @njit(cache=True, nogil=True)
-def _fill(keys, used, table, row):  # type: ignore[no-untyped-def]
+def _touch(slot, table, keys, touched):  # type: ignore[no-untyped-def]
+    """Bring the slots and the keys of their rows into the cache; ``touched`` makes the compiler do it."""
+    for i in range(len(slot)):
+        touched[0] += table[slot[i]]
+    for i in range(len(slot)):
+        touched[0] += keys[max(table[slot[i]] - 1, 0)]
+
+
+@njit(cache=True, nogil=True)
+def _add(key, slot, parts, table, keys, sums, used):  # type: ignore[no-untyped-def]
+    """Find the row of each key, or begin it, and add to its sums; returns how many rows there are."""
+    mask = len(table) - 1
+    for i in range(len(key)):
+        at = slot[i]
+        r = table[at] - 1
+        while r >= 0 and keys[r] != key[i]:
+            at = (at + 1) & mask
+            r = table[at] - 1
+        if r < 0:
+            r = used
+            keys[r] = key[i]
+            used += 1
+            table[at] = used
+        if sums[r, 0] < MOST_POINTS:
+            x, y = parts[i, 0], parts[i, 1]
+            sums[r, 0] += 1
+            sums[r, 1] += x
+            sums[r, 2] += y
+            sums[r, 3] += parts[i, 2]
+            sums[r, 4] += x * x
+            sums[r, 5] += x * y
+            sums[r, 6] += y * y
+            sums[r, 7] += parts[i, 3]
+            sums[r, 8] += parts[i, 4]
+    return used
+
+
+@njit(cache=True, nogil=True)
+def _fill(keys, used, table):  # type: ignore[no-untyped-def]
     mask, low = len(table) - 1, (1 << 21) - 1
     for i in range(used):
         key = keys[i]
         slot = block_slot((key >> 42) - BIAS, ((key >> 21) & low) - BIAS, (key & low) - BIAS, mask)
-        while table[slot] != EMPTY:
+        while table[slot] != 0:
             slot = (slot + 1) & mask
-        table[slot], row[slot] = key, i
+        table[slot] = i + 1
 
 
 @njit(cache=True, nogil=True)

@@ -33,3 +33,13 @@ def block_slot(ix, iy, iz, mask):  # type: ignore[no-untyped-def]
     block = spread(pack(ix >> 2, iy >> 2, iz >> 2))
     local = ((ix & 3) << 4) | ((iy & 3) << 2) | (iz & 3)
     return ((block << 6) | local) & mask
+
+
+@njit(cache=True, inline="always")
+def find_slot(key, keys):  # type: ignore[no-untyped-def]
+    """The slot of ``key`` in a hash of keys, or the empty one where it belongs."""
+    mask = len(keys) - 1
+    slot = spread(key) & mask
+    while keys[slot] != key and keys[slot] != EMPTY:
+        slot = (slot + 1) & mask
+    return slot

@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floorplan_core.geometry.ray_carving import ONE, SHIFT, MissMap
-from floorplan_core.geometry.voxel_keys import EMPTY
+from floorplan_core.geometry import ray_carving
+from floorplan_core.geometry.ray_carving import MOST, ONE, SHIFT, MissMap
+from floorplan_core.geometry.voxel_keys import BIAS, EMPTY
 
 SIZE = 0.1
 LIMITS = (0.05, 30.0)
@@ -107,9 +108,9 @@ def test_what_has_no_sensor_or_no_range_casts_no_ray():
 
 def test_counts_saturate():
     misses = MissMap(SIZE)
-    points = np.tile([[0.35, 0.05, 0.05]], (70_000, 1))
-    misses.carve(points, np.zeros(70_000, dtype=np.int32), np.full((1, 3), 0.05), LIMITS)
-    assert _counted(_bits(misses, 65_535)) == {(0, 0, 0), (1, 0, 0), (2, 0, 0)}
+    points = np.tile([[0.35, 0.05, 0.05]], (700, 1))
+    misses.carve(points, np.zeros(700, dtype=np.int32), np.full((1, 3), 0.05), LIMITS)
+    assert _counted(_bits(misses, MOST)) == {(0, 0, 0), (1, 0, 0), (2, 0, 0)}
 
 
 @pytest.mark.parametrize("degrees", [0, 17, 45, 90, 200])
@@ -164,7 +165,45 @@ def test_two_maps_taken_together_are_the_map_of_all_rays():
 
 
 def test_counts_of_two_maps_saturate():
-    origins, points = np.zeros((40_000, 3)), np.tile([[2.0, 0.0, 0.0]], (40_000, 1))
+    origins, points = np.zeros((MOST - 50, 3)), np.tile([[2.0, 0.0, 0.0]], (MOST - 50, 1))
     misses = _carved(origins, points)
     misses.take(_carved(origins, points))
-    assert misses._pool.max() == 65535
+    assert misses._pool.max() == MOST
+
+
+@pytest.mark.parametrize("largest", [1, 2_000, 1 << 22])
+def test_what_lies_beyond_the_window_is_counted_alike(monkeypatch, largest):
+    """Rays here, rays a kilometre off, and rays five kilometres off, some of them before the window grows."""
+    rng = np.random.default_rng(9)
+    origins = np.repeat([[0.0, 0, 0], [900, -700, 20], [0, 0, 0], [-5000, 10, 0]], 50, axis=0)
+    points = origins + rng.uniform(-20, 20, (200, 3)) * [1, 1, 0.2]
+    monkeypatch.setattr(ray_carving, "_LARGEST", largest)
+    misses = _carved(origins, points, pieces=7)
+    held = {}
+    for key, counts in _counts(misses).items():
+        corner = np.array([key >> 42, key >> 21 & (1 << 21) - 1, key & (1 << 21) - 1]) - BIAS
+        for at, n in enumerate(counts):
+            if n:
+                held[tuple(16 * corner + [at >> 8, at >> 4 & 15, at & 15])] = n
+    assert held == Counter(v for o, p in zip(origins, points, strict=True) for v in _walk(o, p))
+
+
+def test_a_ray_longer_than_what_is_kept_at_a_time():
+    misses = MissMap(0.02)
+    misses.carve(np.array([[24.99, 0.01, 0.01]]), np.zeros(1, dtype=np.int32), np.full((1, 3), 0.01), LIMITS)
+    assert misses._pool.sum() == np.count_nonzero(misses._pool) == 1249  # the voxel of the point left out
+
+
+def test_tilted_columns_are_those_of_every_level_by_itself():
+    rng = np.random.default_rng(11)
+    points = rng.uniform([-4, -4, -1.5], [4, 4, 1.5], (3000, 3))
+    misses = _carved(np.zeros((3000, 3)), points)
+    tilt = np.array([[1.0, 0, 0.05], [0, 1, -0.11], [-0.05, 0.11, 1]])
+    rotation = np.linalg.qr(tilt)[0] * np.sign(np.diag(np.linalg.qr(tilt)[1]))
+    low, z0 = np.array([-3.0, -3.0]), -1.5
+    whole = misses.column_bits(rotation, low, SIZE, (60, 60), z0, 30, (1, 4))
+    for k in range(30):
+        alone = misses.column_bits(rotation, low, SIZE, (60, 60), z0 + k * SIZE, 1, (1, 4))
+        for columns, level in zip(whole, alone, strict=True):
+            differing = ((columns >> np.uint64(k)) & np.uint64(1)) != level
+            assert differing.mean() < 0.001  # z0 + k * cell is rounded once more
