@@ -49,11 +49,6 @@ class _Window:
         corner = (low + high + 1) // 2 - (1 << bits) // 2
         return _Window(np.full(1 << int(bits.sum()), -1, dtype=np.int32), np.concatenate([corner, bits]))
 
-    def holds(self, low: NDArray[np.int64], high: NDArray[np.int64]) -> bool:
-        """True where the blocks ``low`` to ``high`` and those beside them lie in the window."""
-        corner, bits = self.place[:3], self.place[3:]
-        return bool((low > corner).all() and (high + 1 < corner + (1 << bits)).all())
-
 
 class MissMap:
     """Rays through each voxel; counts end at ``MOST``."""
@@ -79,7 +74,7 @@ class MissMap:
         """Cast a ray from each point's sensor origin to the point; the point's own voxel is not counted."""
         start = 0
         while start < len(points):
-            start, self._used = _carve(
+            start, self._used, full = _carve(
                 points,
                 scan,
                 origins,
@@ -90,23 +85,22 @@ class MissMap:
                 self._used,
                 start,
             )
-            if start < len(points) and not self._widen(points[start:], scan[start:], origins, limits):
+            if full:
                 self._grow()
+            elif start < len(points):
+                self._widen(points[start:], scan[start:], origins, limits)
 
     def _widen(
         self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
-    ) -> bool:
-        """Lay the window over all rays; False where it holds them already, or would become too large."""
+    ) -> None:
+        """Lay the window over these rays, too; where it would become too large, remember that."""
         low, high = _reach(points, scan, origins, self.size, *limits)
-        if self._beyond or self._window.holds(low, high):
-            return False
         if self._reach.size:
             low, high = np.minimum(low, self._reach[0]), np.maximum(high, self._reach[1])
         window = _Window.over(low, high) if np.prod(high - low + 3.0) < _LARGEST / 8 else None
         self._beyond = window is None
         if window is not None:
             self._window, self._reach = window, np.stack([low, high])
-        return True
 
     def _grow(self) -> None:
         pool = np.zeros((2 * len(self._pool), _VOLUME), dtype=np.uint8)
@@ -194,13 +188,15 @@ def _ends(px, py, pz, ox, oy, oz, size, nearest, farthest):  # type: ignore[no-u
 def _reach(points, scan, origins, size, nearest, farthest):  # type: ignore[no-untyped-def]
     """Lowest and highest block of all rays; equal where there is none."""
     low, high = np.full(3, BIAS, dtype=np.int64), np.full(3, -BIAS, dtype=np.int64)
+    inverse = 1.0 / size
     for i in range(len(points)):
         if scan[i] < 0:
             continue
-        p, o = points[i] * (1.0 / size), origins[scan[i]] * (1.0 / size)
-        if _ends(p[0], p[1], p[2], o[0], o[1], o[2], size, nearest, farthest):
+        px, py, pz = points[i, 0] * inverse, points[i, 1] * inverse, points[i, 2] * inverse
+        o = origins[scan[i]]
+        if _ends(px, py, pz, o[0] * inverse, o[1] * inverse, o[2] * inverse, size, nearest, farthest):
             for k in range(3):
-                a, b = int(np.floor(p[k])) >> 4, int(np.floor(o[k])) >> 4
+                a, b = int(np.floor(points[i, k] * inverse)) >> 4, int(np.floor(o[k] * inverse)) >> 4
                 low[k], high[k] = min(low[k], a, b), max(high[k], a, b)
     if low[0] > high[0]:
         low[:], high[:] = 0, 0
@@ -209,7 +205,7 @@ def _reach(points, scan, origins, size, nearest, farthest):  # type: ignore[no-u
 
 @njit(cache=True, nogil=True)
 def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  # type: ignore[no-untyped-def]
-    """Follow the rays from ``start`` on; ends before the one for which pool or window have no room."""
+    """Follow rays from ``start`` on; ends before the first that the pool (True) or the window cannot take."""
     size, nearest, farthest = ranges
     keys, ids = blocks
     near, place, beyond = window
@@ -240,7 +236,7 @@ def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  #
             and (min(az, bz) > 0 and max(az, bz) < high)
         )
         if used + entered > len(pool) or not (inside or beyond):
-            return i, used
+            return i, used, used + entered > len(pool)
         dx, dy, dz = px - ox, py - oy, pz - oz
         longest = max(abs(dx), abs(dy), abs(dz), 1e-9)
         sx, sy, sz = int(dx / longest * ONE), int(dy / longest * ONE), int(dz / longest * ONE)
@@ -275,7 +271,7 @@ def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  #
                 at = (_U(block) << _U(12)) | _U(voxels[k])
                 if counts[at] < _MOST:
                     counts[at] += np.uint8(1)
-    return len(points), used
+    return len(points), used, False
 
 
 @njit(cache=True, nogil=True)
