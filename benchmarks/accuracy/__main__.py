@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Exit status 0; 2 where no survey has the given name."""
     options = parse(arguments)
     console = Console(width=None if sys.stdout.isatty() else WIDTH)
-    cases = chosen_cases(options.quick, options.only)
+    cases = chosen_cases(options.quick, options.only, options.fresh)
     if not cases:
         console.print(f"No survey's name holds {options.only!r}.")
         return 2
@@ -33,7 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
     records = run_cases(cases, config, lambda case, entry: tell(console, case, entry))
     last = store.load()
     show(console, records, last)
-    full = not options.quick and options.only is None
+    full = not options.quick and options.only is None and not options.fresh
     draw(
         console, cases, records, store.PICTURES if full and not options.no_save else cache_folder() / "worst"
     )
@@ -54,6 +54,14 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument(
         "--only", metavar="NAME", help="surveys whose name holds NAME; the result is not kept"
+    )
+    parser.add_argument(
+        "--fresh",
+        type=int,
+        action="append",
+        default=[],
+        metavar="SEED",
+        help="18 new surveys, seeds from SEED (3000, 4000 ...); may be repeated; the result is not kept",
     )
     parser.add_argument("--no-save", action="store_true", help="leave the last result as it is")
     parser.add_argument("--config", type=Path, metavar="YAML", help="settings other than the defaults")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from benchmarks.accuracy import reliability as bins
-from benchmarks.accuracy.cases import HALVES
+from benchmarks.accuracy.cases import FRESH, HALVES
 from benchmarks.accuracy.record import METRICS, Metric, Record, mean, worst
 
 # Columns of the table of single surveys: key, title, digits.
@@ -47,16 +47,24 @@ def change(new: float | None, old: float | None, metric: Metric) -> str:
 
 
 def totals(records: Sequence[Record], last: Sequence[Record]) -> Table:
-    """One row a metric: target, mean of each half, worst held-out survey, change of the held-out mean."""
-    header = ["metric", "target", *HALVES, "worst held out", "survey", "held out against last"]
-    return header, [_total(metric, records, last) for metric in METRICS]
+    """One row a metric: target, mean of each half, worst survey and change of what counts."""
+    halves = halves_of(records)
+    header = ["metric", "target", *halves, f"worst {halves[1]}", "survey", f"{halves[1]} against last"]
+    return header, [_total(metric, records, last, halves) for metric in METRICS]
 
 
-def _total(metric: Metric, records: Sequence[Record], last: Sequence[Record]) -> list[str]:
-    halves = {half: [r for r in records if r["half"] == half] for half in HALVES}
-    means = [mean(halves[half], metric.key) for half in HALVES]
-    low = worst(halves[HALVES[1]], metric)
-    names = {r["name"] for r in halves[HALVES[1]]}
+def halves_of(records: Sequence[Record]) -> tuple[str, str]:
+    """The half that was tuned on, and the one that counts: the held out, or fresh surveys where there are."""
+    return HALVES[0], FRESH if any(r["half"] == FRESH for r in records) else HALVES[1]
+
+
+def _total(
+    metric: Metric, records: Sequence[Record], last: Sequence[Record], halves: tuple[str, str]
+) -> list[str]:
+    of_half = [[r for r in records if r["half"] == half] for half in halves]
+    means = [mean(some, metric.key) for some in of_half]
+    low = worst(of_half[1], metric)
+    names = {r["name"] for r in of_half[1]}
     before = mean([r for r in last if r["name"] in names], metric.key)
     return [
         metric.title,
@@ -133,14 +141,15 @@ def factors(records: Sequence[Record]) -> Table:
 
 def reliability(records: Sequence[Record]) -> Table:
     """Confidence of apertures against truth, both halves side by side; the last row is the Brier score."""
+    halves = halves_of(records)
     judged = {
-        h: [tuple(a) for r in records if r["half"] == h for a in r.get("apertures", [])] for h in HALVES
+        h: [tuple(a) for r in records if r["half"] == h for a in r.get("apertures", [])] for h in halves
     }
     header = [
         "confidence",
-        *(f"{half}: {what}" for half in HALVES for what in ("apertures", "mean", "doors")),
+        *(f"{half}: {what}" for half in halves for what in ("apertures", "mean", "doors")),
     ]
-    columns = [bins.table(judged[half]) for half in HALVES]
+    columns = [bins.table(judged[half]) for half in halves]
     rows = [
         [
             both[0][0],
@@ -148,7 +157,7 @@ def reliability(records: Sequence[Record]) -> Table:
         ]
         for both in zip(*columns, strict=True)
     ]
-    scores = [["", "", number(bins.brier(judged[half]), 4)] for half in HALVES]
+    scores = [["", "", number(bins.brier(judged[half]), 4)] for half in halves]
     return header, [*rows, ["Brier score", *(cell for score in scores for cell in score)]]
 
 

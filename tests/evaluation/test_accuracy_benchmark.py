@@ -53,6 +53,17 @@ def test_a_name_chooses_surveys_and_an_unknown_one_is_refused(capsys):
     assert "no such survey" in capsys.readouterr().out
 
 
+def test_fresh_seeds_make_surveys_of_the_same_kind_that_no_half_holds():
+    fresh = chosen_cases(False, None, [4000, 5000])
+    assert len(fresh) == 36
+    assert not {c.spec.seed for c in fresh} & {c.spec.seed for c in simulated_cases()}
+    held_out = [c.factors for c in simulated_cases() if c.half == HALVES[1]]
+    assert [c.factors for c in fresh[:18]] == held_out
+    header, rows = tables.totals([entry(half="fresh", iou_entered=0.9)], [])
+    assert header[2:4] == ["tuning", "fresh"]
+    assert next(r for r in rows if r[0] == "room IoU, entered")[3] == "0.900 ✗"
+
+
 def test_a_perfect_plan_is_the_least_bad_and_an_empty_one_worse_than_any_error():
     plan, true = perfect()
     best = record.record(compare(plan, true))
