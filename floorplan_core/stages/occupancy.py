@@ -31,6 +31,7 @@ _BEHIND_DOOR = (
     0.3  # of the indoor share, for what a door joins to the inside: little floor is seen through it
 )
 _PATCHY = 0.6  # of the indoor share, where free space was guessed between patches of floor and ceiling
+_WALKED = (0.2, 2.0)  # m above the floor: where something free lets a person stand on seen floor
 _BEYOND = 0.6  # m behind a door, where the space that it opens is looked for
 _BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
 
@@ -47,6 +48,7 @@ def slice_map(
     level = min(int(height / LEVEL), 60)
     free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
     occupied = (evidence.occupied & height_mask(level * LEVEL, (level + 1) * LEVEL)) != 0
+    free |= _open_floor(evidence)
     states = np.where(occupied, OCCUPIED, np.where(free, FREE, UNOBSERVED)).astype(np.uint8)
     universe = _indoors(states == FREE, evidence, planes, doors, config)
     if not universe.any():
@@ -55,6 +57,13 @@ def slice_map(
             "to a height that the sensor saw through, or give the trajectory (--trajectory)."
         )
     return OccupancyGrid(evidence.origin, evidence.cell, states, universe, round(height, 3))
+
+
+def _open_floor(evidence: Evidence) -> Mask:
+    """Cells whose floor was seen and above it something free: through a door a sensor looks down on floor."""
+    if evidence.inferred:  # the free space was made of the floor there
+        return np.zeros(evidence.shape, dtype=bool)
+    return _floor_cells(evidence) & ((evidence.free & height_mask(*_WALKED)) != 0)
 
 
 def _best_height(evidence: Evidence) -> float:
