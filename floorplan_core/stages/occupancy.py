@@ -31,6 +31,7 @@ _BEHIND_DOOR = (
     0.3  # of the indoor share, for what a door joins to the inside: little floor is seen through it
 )
 _PATCHY = 0.6  # of the indoor share, where free space was guessed between patches of floor and ceiling
+_GLIMPSE = 0.15  # m2 of free cells just behind a door that show a space
 _WALKED = (0.2, 2.0)  # m above the floor: where something free lets a person stand on seen floor
 _BEYOND = 0.6  # m behind a door, where the space that it opens is looked for
 _BAND = 2  # levels on each side of the slice whose free voxels count: beams are sparse far away
@@ -109,7 +110,8 @@ def _indoors(
     ]
     least = config.indoor_share * (_PATCHY if evidence.inferred else 1.0)
     inside = visited | (large & (shown[0] >= least)) if shown else visited | large
-    within = large & (np.maximum(floor, ceiling) >= _BEHIND_DOOR * config.indoor_share)
+    through = area * evidence.cell**2 >= _GLIMPSE
+    within = through & (np.maximum(floor, ceiling) >= _BEHIND_DOOR * config.indoor_share)
     inside = _through_doors(inside, within, doors, label, evidence)
     inside[0] = False
     return np.asarray(inside[label])
