@@ -34,6 +34,7 @@ from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
 from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
+from floorplan_core.stages.wall_extensions import WallExtender
 
 Float = NDArray[np.float64]
 
@@ -60,8 +61,10 @@ def build_regions(
     walls = WallSurfaces(planes, segments)
     pieces: list[tuple[Any, NDArray[np.int64]]] = []
     splitter = RoomSplitter(planes, doors, grid, walls.thickness)
+    extender = WallExtender(planes, grid, walls.thickness)
     for shape, (rows, _) in zip(shapes, groups, strict=True):
-        rooms = [room for part in polygons_of(shape) for room in splitter.split(part)]
+        halves = [half for part in polygons_of(shape) for half in extender.split(part)]
+        rooms = [room for half in halves for room in splitter.split(half)]
         pieces += [(walls.fit(room), rows) for room in rooms]
     apart = _disjoint(pieces, grid, config.sliver)
     grower = RoomGrower(planes, walls, doors, grid, config.wall_support)

@@ -1,0 +1,117 @@
+"""Walls that go on unseen: a region that holds a seen piece of wall is parted along its line.
+
+Through a door often only the near end of the wall between two glimpsed rooms is seen, and the rectangles that
+explain what was seen of both meet beyond it. A wall goes straight on until something stops it: another wall
+that meets it at its end, or free space seen where it would run. Where neither does, the region is cut along
+the wall's line, right through; a part in which nothing was seen free is left out, for nothing asks for it.
+In: a polygon, planes, the grid. Out: its parts. Cost: walls within the polygon.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from floorplan_core.geometry.raster import polygon_window
+from floorplan_core.geometry.rectilinear import polygons_of
+from floorplan_core.model import LayoutPlane, OccupancyGrid
+
+Float = NDArray[np.float64]
+
+_SHORTEST = 0.3  # m of wall that tells where it goes on
+_INSIDE = 0.25  # m from the sides of the region, within which a wall is its side
+_TOUCH = 0.3  # m between the end of a wall and another that it meets there
+_CROSSED = 0.15  # m of the line that may have been seen free: cells are coarse
+_LEAST = 0.1  # m2 of free cells in each part; less in one of them shows nothing
+_EXACT = 1e-6  # m
+
+
+class WallExtender:
+    """Parts regions along seen walls that go on unseen."""
+
+    def __init__(self, planes: Sequence[LayoutPlane], grid: OccupancyGrid, thickness: float) -> None:
+        seen = [p for p in planes if not p.speculated and not p.recess and p.by_hand != "hidden"]
+        self._grid, self._thickness = grid, thickness
+        self._walls = [
+            (p.facing.axis, p.offset - p.facing.sign * thickness / 2, float(s), float(e))
+            for p in seen
+            for s, e in p.walls
+            if e - s > _SHORTEST and _observed(p, s, e) > _SHORTEST
+        ]
+        self._crossing = {
+            axis: np.array(
+                [(p.offset, s, e) for p in seen if p.facing.axis == axis for s, e in p.walls]
+            ).reshape(-1, 3)
+            for axis in (0, 1)
+        }
+
+    def split(self, polygon: Any) -> list[Any]:
+        """The polygon, or the parts in which anything was seen, each split again."""
+        for axis, middle, start, end in self._walls:
+            cut = self._cut(polygon, axis, middle, start, end)
+            parts = [] if cut is None else polygons_of(shapely.difference(polygon, cut))
+            if len(parts) > 1:
+                seen = [part for part in parts if self._free(part) >= _LEAST]
+                if seen and sum(map(self._free, seen)) >= self._free(polygon) - _LEAST:
+                    return [room for part in seen for room in self.split(part)]
+        return [polygon]
+
+    def _cut(self, polygon: Any, axis: int, middle: float, start: float, end: float) -> Any:
+        """The box along the wall's line to the far sides of the polygon; None where something stops it."""
+        x0, y0, x1, y1 = polygon.bounds
+        low, high = (x0, x1) if axis == 0 else (y0, y1)
+        if not low + _INSIDE < middle < high - _INSIDE:
+            return None
+        line = shapely.LineString(_across(axis, middle, *((y0, y1) if axis == 0 else (x0, x1))))
+        inside = [sorted(_along(axis, piece)) for piece in shapely.get_parts(line.intersection(polygon))]
+        inside = [(a, b) for a, b in inside if b - a > _EXACT]
+        mine = [(a, b) for a, b in inside if a < end + _INSIDE and b > start - _INSIDE]
+        unseen = [
+            (a, b) for a, b in mine for a, b in ((a, min(b, start)), (max(a, end), b)) if b - a > _EXACT
+        ]
+        if not mine or any(self._stopped(axis, middle, a, b, start, end) for a, b in unseen):
+            return None
+        half = self._thickness / 2
+        boxes = [(middle - half, a - _INSIDE, middle + half, b + _INSIDE) for a, b in mine]
+        return shapely.union_all(
+            [shapely.box(*(b if axis == 0 else (b[1], b[0], b[3], b[2]))) for b in boxes]
+        )
+
+    def _stopped(self, axis: int, middle: float, low: float, high: float, start: float, end: float) -> bool:
+        """True where another wall meets the end of this one, or free space was seen beyond it."""
+        tip = end if low >= end - _EXACT else start
+        others = self._crossing[1 - axis]
+        meets = (np.abs(others[:, 0] - tip) < _TOUCH) & (others[:, 1] < middle + _TOUCH)
+        if high - low > _INSIDE and (meets & (others[:, 2] > middle - _TOUCH)).any():
+            return True
+        grid = self._grid.universe if axis == 0 else self._grid.universe.T
+        column = int((middle - self._grid.origin[axis]) / self._grid.cell)
+        a, b = ((np.array([low, high]) - self._grid.origin[1 - axis]) / self._grid.cell).round().astype(int)
+        if not 0 <= column < grid.shape[1]:
+            return False
+        return float(np.count_nonzero(grid[max(a, 0) : max(b, 0), column])) * self._grid.cell > _CROSSED
+
+    def _free(self, polygon: Any) -> float:
+        """m2 of the polygon that were seen free."""
+        window, inside = polygon_window(polygon, self._grid.origin, self._grid.cell, self._grid.states.shape)
+        return float(np.count_nonzero(self._grid.universe[window] & inside)) * self._grid.cell**2
+
+
+def _observed(plane: LayoutPlane, start: float, end: float) -> float:
+    """Metres of a run that were really seen."""
+    common = np.minimum(plane.observed[:, 1], end) - np.maximum(plane.observed[:, 0], start)
+    return float(np.maximum(common, 0).sum())
+
+
+def _across(axis: int, middle: float, low: float, high: float) -> list[tuple[float, float]]:
+    ends = [(middle, low), (middle, high)]
+    return ends if axis == 0 else [(v, u) for u, v in ends]
+
+
+def _along(axis: int, line: Any) -> list[float]:
+    """The coordinates of a line's ends along itself."""
+    return [float(xy[1 - axis]) for xy in shapely.get_coordinates(line)[[0, -1]]]
