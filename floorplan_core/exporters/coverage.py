@@ -39,7 +39,17 @@ def all_rounded(polygons: Sequence[Any], transform: Callable[[Float], Float], de
     moved = shapely.transform(
         np.array(polygons, dtype=object), lambda points: np.round(transform(points), decimals)
     )
-    return list(shapely.remove_repeated_points(moved, 0.0))
+    repeated = _with_repeats(moved)  # few: to look for them in all takes GEOS longer than all the rest
+    moved[repeated] = shapely.remove_repeated_points(moved[repeated], 0.0)
+    return list(moved)
+
+
+def _with_repeats(polygons: NDArray[np.object_]) -> NDArray[np.int64]:
+    """Numbers of the polygons in which a vertex is that before it."""
+    rings, owner = shapely.get_rings(polygons, return_index=True)
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    same = (ring[1:] == ring[:-1]) & (points[1:] == points[:-1]).all(axis=1)
+    return np.unique(owner[ring[1:][same]])
 
 
 def _merge_coordinates(polygons: list[Any]) -> Any:

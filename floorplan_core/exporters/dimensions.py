@@ -43,7 +43,8 @@ def chain(regions: Sequence[Region], axis: int, sign: int) -> tuple[Span, ...]:
     ``axis`` 1 and ``sign`` +1 is the view from the top of the page: horizontal faces of the topmost regions.
     """
     edges = _faces(regions, axis, sign)
-    spans = [Span(a, b, face) for face, a, b in edges if _visible(face, a, b, edges, sign) >= b - a - HIDDEN]
+    rows = np.array(edges).reshape(-1, 3)
+    spans = [Span(a, b, face) for face, a, b in edges if _visible(face, a, b, rows, sign) >= b - a - HIDDEN]
     return tuple(sorted(set(spans), key=lambda s: (s.start, s.end)))
 
 
@@ -73,11 +74,11 @@ def _faces(regions: Sequence[Region], axis: int, sign: int) -> list[tuple[float,
     return faces
 
 
-def _visible(
-    face: float, start: float, end: float, edges: Sequence[tuple[float, float, float]], sign: int
-) -> float:
-    """Metres of the face with no other face in front of it."""
-    front = sorted((a, b) for f, a, b in edges if sign * (f - face) > STRAIGHT and a < end and b > start)
+def _visible(face: float, start: float, end: float, edges: Float, sign: int) -> float:
+    """Metres of the face with none of the ``edges`` (E, 3; position across, start, end) in front of it."""
+    across, low, high = edges.T
+    ahead = (sign * (across - face) > STRAIGHT) & (low < end) & (high > start)
+    front = sorted(map(tuple, edges[ahead, 1:].tolist()))
     seen, at = 0.0, start
     for a, b in front:
         seen += max(0.0, a - at)
@@ -103,23 +104,26 @@ class Arm:
 
 def arms(polygon: Any, slimness: float) -> tuple[Arm, ...]:
     """For each axis the longest arm of a polygon that is ``slimness`` times longer than wide, if any."""
-    corners = shapely.get_coordinates(polygon)
+    corners, ring = shapely.get_coordinates(shapely.get_rings(polygon), return_index=True)
+    edges = np.stack([corners[:-1], corners[1:]], axis=1)[ring[:-1] == ring[1:]]
     found = []
     for axis in (0, 1):
         ticks = np.unique(np.round(corners[:, 1 - axis], 6)).tolist()
         stretches = [
             Arm(axis, low, high, a, b)
             for a, b in itertools.pairwise(ticks)
-            for low, high in _chords(polygon, axis, (a + b) / 2)
+            for low, high in _chords(edges, axis, (a + b) / 2)
         ]
         slim = [arm for arm in stretches if arm.end - arm.start >= slimness * arm.width]
         found += [max(slim, key=lambda arm: arm.end - arm.start)] if slim else []
     return tuple(found)
 
 
-def _chords(polygon: Any, axis: int, at: float) -> list[tuple[float, float]]:
-    """Where the line ``at`` across ``axis`` runs inside the polygon."""
-    low, high = polygon.bounds[axis] - 1, polygon.bounds[axis + 2] + 1
-    ends = [(low, at), (high, at)] if axis == 0 else [(at, low), (at, high)]
-    parts = shapely.get_parts(polygon.intersection(shapely.LineString(ends)))
-    return [(p.bounds[axis], p.bounds[axis + 2]) for p in parts if p.length > STRAIGHT]
+def _chords(edges: Float, axis: int, at: float) -> list[tuple[float, float]]:
+    """Where the line ``at`` across ``axis`` is in the polygon of ``edges`` (E, 2, 2); it meets no corner."""
+    v = edges[:, :, 1 - axis]
+    crossed = edges[(v[:, 0] > at) != (v[:, 1] > at)]
+    a, b = crossed[:, 0], crossed[:, 1]
+    share = (at - a[:, 1 - axis]) / (b[:, 1 - axis] - a[:, 1 - axis])
+    ends = np.sort(a[:, axis] + share * (b[:, axis] - a[:, axis])).tolist()
+    return [(low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high - low > STRAIGHT]

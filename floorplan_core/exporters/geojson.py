@@ -174,9 +174,14 @@ def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
     inside = shapely.union_all(shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre"))
     clipped = _only_polygons(shapely.intersection(plan.speculated(), inside))
     moved = all_rounded([p for p in clipped if p.area > INSET], plan.to_world, DECIMALS)
-    valid = [q for p in moved for q in ([p] if p.is_valid else _only_polygons(shapely.make_valid(p)))]
+    whole = shapely.is_valid(np.array(moved, dtype=object)).tolist()
+    valid = [
+        q
+        for p, fine in zip(moved, whole, strict=True)
+        for q in ([p] if fine else _only_polygons(shapely.make_valid(p)))
+    ]
     properties = {"kind": "speculated", "area_m2": _metres(sum(p.area for p in clipped))}
-    coordinates = [_rings(p) for p in valid]
+    coordinates = _all_rings(valid)
     return _feature("speculated", {"type": "MultiPolygon", "coordinates": coordinates}, properties)
 
 
@@ -203,9 +208,19 @@ def _polygon(plan: FloorPlan, polygon: Any) -> Json:
 
 def _rings(polygon: Any) -> list[list[list[float]]]:
     """GeoJSON rings of a polygon that is already rounded: counter-clockwise shell, clockwise holes."""
-    oriented = shapely.orient_polygons(polygon)
-    rings = shapely.get_rings(oriented)
-    return [_clean(shapely.get_coordinates(r), DECIMALS).tolist() for r in rings]
+    return _all_rings([polygon])[0]
+
+
+def _all_rings(polygons: list[Any]) -> list[list[list[list[float]]]]:
+    """The rings of each of many polygons."""
+    oriented = shapely.orient_polygons(np.array(polygons, dtype=object))
+    rings, owner = shapely.get_rings(oriented, return_index=True)
+    points = _clean(shapely.get_coordinates(rings), DECIMALS).tolist()
+    out: list[list[list[list[float]]]] = [[] for _ in polygons]
+    ends = np.cumsum(shapely.get_num_coordinates(rings)).tolist()
+    for start, end, k in zip([0, *ends], ends, owner.tolist(), strict=False):
+        out[k].append(points[start:end])
+    return out
 
 
 def _line(plan: FloorPlan, ends: Float) -> Json:

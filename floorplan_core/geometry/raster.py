@@ -8,7 +8,6 @@ polygon of a mask is the union of its cells. Cost: edges times rows; boundary co
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from typing import Any
 
 import numpy as np
@@ -38,8 +37,7 @@ def polygon_window(
     i0, i1 = (_index(v, origin[0], cell, shape[1]) for v in (x0, x1))
     j0, j1 = (_index(v, origin[1], cell, shape[0]) for v in (y0, y1))
     crossings = np.zeros((j1 - j0, i1 - i0 + 1), dtype=bool)
-    for edge in _edges(polygon):
-        _toggle(crossings, edge, (i0, j0), origin, cell)
+    _toggle(crossings, _edges(polygon), (i0, j0), origin, cell)
     return (slice(j0, j1), slice(i0, i1)), np.logical_xor.accumulate(crossings[:, :-1], axis=1)
 
 
@@ -48,37 +46,36 @@ def _index(value: float, origin: float, cell: float, count: int) -> int:
     return min(max(math.ceil((value - origin) / cell - 0.5), 0), count)
 
 
-def _toggle(
-    crossings: Bool, edge: tuple[float, ...], corner: tuple[int, int], origin: Float, cell: float
-) -> None:
-    """Mark, in each row that the edge crosses, the first cell to its right: even-odd fill, row by row.
+def _edges(polygon: Any) -> Float:
+    """(E, 4) x0, y0, x1, y1 of the edges of all rings."""
+    rings = shapely.get_rings(shapely.get_parts(polygon))
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    same = ring[1:] == ring[:-1]
+    return np.hstack([points[:-1][same], points[1:][same]])
+
+
+def _toggle(crossings: Bool, edges: Float, corner: tuple[int, int], origin: Float, cell: float) -> None:
+    """Mark, in each row that an edge crosses, the first cell to its right: even-odd fill, row by row.
 
     Cells are counted on the whole grid, so that polygons that share an edge round it alike.
     """
-    x0, y0, x1, y1 = edge
     (i0, j0), (ny, nx) = corner, crossings.shape
-    low, high = (max(_index(v, origin[1], cell, j0 + ny), j0) for v in sorted((y0, y1)))
-    if low >= high:
-        return
-    if x0 == x1:
-        crossings[low - j0 : high - j0, _index(x0, origin[0], cell, i0 + nx - 1) - i0] ^= True
-        return
-    rows = np.arange(low, high)
-    x = x0 + (origin[1] + cell * (rows + 0.5) - y0) * ((x1 - x0) / (y1 - y0))
-    columns = np.ceil((x - origin[0]) / cell - 0.5).astype(np.int64) - i0
-    crossings[rows - j0, np.clip(columns, 0, nx - 1)] ^= True  # a row crosses an edge once: no index repeats
-
-
-def _edges(polygon: Any) -> list[tuple[float, float, float, float]]:
-    """x0, y0, x1, y1 of every edge of every ring."""
-    edges: list[tuple[float, float, float, float]] = []
-    for part in getattr(polygon, "geoms", [polygon]):
-        if part.geom_type != "Polygon":  # lines and points, which an intersection leaves, hold no cell
-            continue
-        for ring in (part.exterior, *part.interiors):
-            c = shapely.get_coordinates(ring)
-            edges += [tuple(e) for e in np.hstack([c[:-1], c[1:]]).tolist()]
-    return edges
+    x0, y0, x1, y1 = edges.T
+    low, high = np.minimum(y0, y1), np.maximum(y0, y1)
+    rows = np.ceil((np.stack([low, high]) - origin[1]) / cell - 0.5).clip(j0, j0 + ny).astype(np.int64) - j0
+    columns = np.ceil((x0 - origin[0]) / cell - 0.5).clip(0, i0 + nx - 1).astype(np.int64) - i0
+    upright, crossed = x0 == x1, rows[0] < rows[1]
+    for column, first, last in zip(
+        *(part[upright & crossed].tolist() for part in (columns, *rows)), strict=True
+    ):
+        crossings[first:last, column] ^= True
+    for k in np.flatnonzero(~upright & crossed):
+        row = np.arange(*rows[:, k]) + j0
+        x = x0[k] + (origin[1] + cell * (row + 0.5) - y0[k]) * ((x1[k] - x0[k]) / (y1[k] - y0[k]))
+        column = np.ceil((x - origin[0]) / cell - 0.5).astype(np.int64) - i0
+        crossings[row - j0, np.clip(column, 0, nx - 1)] ^= (
+            True  # a row crosses an edge once: no index repeats
+        )
 
 
 def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
@@ -89,12 +86,12 @@ def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
 
     labels = np.pad(label_patches(mask)[0], 1)
     ix, iy, left_is_north = _corners(labels)
-    rings, homes = [], []
-    for ring in _rings(ix, iy, left_is_north):
-        x, y = ix[ring], iy[ring]
-        rings.append(shapely.LinearRing(np.column_stack([x, y]) * cell + origin))
-        homes.append(_home(labels, x, y))
-    return shapely.MultiPolygon(_assemble(rings, homes))
+    walks = _rings(ix, iy, left_is_north)
+    order, ring = np.concatenate(walks), np.repeat(np.arange(len(walks)), [len(walk) for walk in walks])
+    points = np.column_stack([ix[order], iy[order]]) * cell + origin
+    ends = np.array([walk[:2] for walk in walks])
+    homes = _homes(labels, ix[ends].min(axis=1), iy[ends[:, 0]])
+    return shapely.MultiPolygon(_assemble(shapely.linearrings(points, indices=ring), homes))
 
 
 def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:
@@ -143,19 +140,23 @@ def _walk(beside: list[int], above: list[int]) -> list[Int]:
     return rings
 
 
-def _home(labels: NDArray[np.int32], x: Int, y: Int) -> int:
-    """The patch that a ring bounds: of the two cells beside its first horizontal edge, the filled one."""
-    column = min(int(x[0]), int(x[1])) + 1
-    return int(max(labels[y[0], column], labels[y[0] + 1, column]))
+def _homes(labels: NDArray[np.int32], x: Int, y: Int) -> Int:
+    """(R,) the patch that each ring bounds: of the two cells beside its first edge along x, the filled one.
+
+    :param x, y: (R,) the left end of that edge.
+    """
+    return np.maximum(labels[y, x + 1], labels[y + 1, x + 1]).astype(np.int64)
 
 
-def _assemble(rings: list[Any], homes: list[int]) -> list[Any]:
-    """One polygon for each patch: its largest ring is the shell, the others are holes."""
-    patches: dict[int, list[Any]] = defaultdict(list)
-    for ring, home in zip(rings, homes, strict=True):
-        patches[home].append(shapely.Polygon(ring))
-    polygons = []
-    for home in sorted(patches):
-        shell, *holes = sorted(patches[home], key=lambda p: -p.area)
-        polygons.append(shapely.Polygon(shell.exterior, [h.exterior for h in holes]))
-    return list(shapely.orient_polygons(polygons))
+def _assemble(rings: NDArray[np.object_], homes: Int) -> NDArray[np.object_]:
+    """One polygon for each patch: its largest ring is the shell, the others are holes, largest first."""
+    size = shapely.area(shapely.polygons(rings))
+    order = np.lexsort((-size, homes))
+    first = np.flatnonzero(np.concatenate([[True], np.diff(homes[order]) != 0]))
+    patch = np.repeat(np.arange(len(first)), np.diff([*first, len(order)]))
+    hole = np.ones(len(order), dtype=bool)
+    hole[first] = False
+    polygons = shapely.polygons(rings[order[first]])
+    for k in np.unique(patch[hole]):
+        polygons[k] = shapely.Polygon(rings[order[first[k]]], list(rings[order[hole & (patch == k)]]))
+    return np.asarray(shapely.orient_polygons(polygons))

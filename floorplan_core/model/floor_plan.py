@@ -82,11 +82,12 @@ class FloorPlan:
 
 def regions_mask(regions: tuple[Region, ...], grid: OccupancyGrid) -> NDArray[np.bool_]:
     """(ny, nx) True where a cell's centre lies in a region."""
-    from floorplan_core.geometry.raster import polygon_mask
+    from floorplan_core.geometry.raster import polygon_window
 
     mask = np.zeros(grid.states.shape, dtype=bool)
     for region in regions:
-        mask |= polygon_mask(region.polygon, grid.origin, grid.cell, grid.states.shape)
+        window, inside = polygon_window(region.polygon, grid.origin, grid.cell, grid.states.shape)
+        mask[window] |= inside
     return mask
 
 
