@@ -245,7 +245,7 @@ def test_growth_of_the_ray_map_is_amortised(monkeypatch):
         planner.integrate(rng.uniform(-8, 8, (3000, 3)), pose)
     planner.map.settle()
     assert len(moved) >= 1
-    assert sum(moved) <= 4 * 4 * planner.map.rays.blocks
+    assert sum(moved) <= 2 * 4 * 4 * planner.map.rays.blocks  # two threads, each with a map of its own
 
 
 @pytest.mark.parametrize("ids", [[-1, 0], [0, 2]])
