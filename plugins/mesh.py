@@ -5,7 +5,7 @@ Points lie on the triangles about ``SPACING`` apart, from a low-discrepancy sequ
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from floorcast_plugins._mesh_files import check_mesh, load_triangles, mesh_kind
+from floorcast_plugins._mesh_pieces import Pieces, check_memory, pieces_of
 from floorplan_core.api import (
     CHUNK_POINTS,
     SAMPLE_POINTS,
@@ -33,6 +34,7 @@ SPACING = 0.025  # metres between points: two to a surfel of 5 cm along each axi
 MAX_POINTS = 50_000_000  # 31,000 m2 of surface; larger ones are sampled more coarsely
 FAR = 100.0  # times the median distance from the middle: a corner beyond is damage, or a sky
 BLOCK = 1 << 16  # triangles that are worked on at a time
+SAMPLE_TRIANGLES = 1 << 18  # of a mesh that is not held, which show where it lies
 # The R2 sequence (M. Roberts 2018): the plane's counterpart of the golden ratio.
 R2 = (0.7548776662466927, 0.5698402909980532)
 
@@ -71,37 +73,25 @@ class MeshReader:
 class Mesh:
     """All parts of a scene in one frame."""
 
-    vertices: Any  # (V, 3) float64, file coordinates
-    faces: Any  # (F, 3) int64
+    blocks: Callable[
+        [], Iterator[Any]
+    ]  # passes over (B, 3, 3) corners, at most ``BLOCK`` triangles at a time
+    triangles: int
     loose: Any  # (L, 3) points that belong to no triangle
     area: float  # file units squared
     left_out: int = 0  # triangles with a corner that is absurdly far away
 
     @staticmethod
     def of(path: Path, kind: str) -> Mesh:
-        """Load a mesh; :class:`EmptyInput` where nothing in it can be sampled."""
-        vertices, faces, loose, count = [], [], [np.empty((0, 3))], 0
-        for corners, triangles in load_triangles(path, kind):
-            if len(triangles) == 0:
-                loose.append(corners)
-                continue
-            vertices.append(corners)
-            faces.append(triangles + count)
-            count += len(corners)
-        if not vertices:
-            vertices, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
-        corners, triangles = np.concatenate(vertices), np.concatenate(faces)
-        near = triangles[_near(corners)[triangles].all(axis=1)]
-        mesh = Mesh(corners, near, np.concatenate(loose), 0.0, len(triangles) - len(near))
+        """Open a mesh; :class:`EmptyInput` where nothing in it can be sampled."""
+        pieces = pieces_of(path, kind)
+        if pieces is None:
+            check_memory(path, kind)
+        mesh = _loaded(path, kind) if pieces is None else _streamed(pieces)
         area = sum(float(_areas(corners).sum()) for corners in mesh.blocks())
         if not area > 0 and not len(mesh.loose):
             raise EmptyInput(f"{path.name} is a mesh without any surface.")
         return replace(mesh, area=area)
-
-    def blocks(self) -> Iterator[Any]:
-        """(B, 3, 3) corners of at most ``BLOCK`` triangles."""
-        for start in range(0, len(self.faces), BLOCK):
-            yield self.vertices[self.faces[start : start + BLOCK]]
 
     def spacing_of(self, count: int) -> float:
         """The spacing, file units, at which the surface takes ``count`` points."""
@@ -111,7 +101,7 @@ class Mesh:
         """Points ``spacing`` file units apart."""
         count = len(self.loose) + (int(self.area / spacing**2) if spacing > 0 else 0)
         note = (
-            f"{path.name} is a mesh of {len(self.faces):,} triangles and {self.area * scale**2:,.1f} m2; "
+            f"{path.name} is a mesh of {self.triangles:,} triangles and {self.area * scale**2:,.1f} m2; "
             f"points on it are {spacing * scale:.3f} m apart."
         )
         if self.left_out:
@@ -122,9 +112,46 @@ class Mesh:
             partial(_chunks, self, spacing, path.name),
             partial(_sample, self, path.name),
             count,
-            notes=(note,) if len(self.faces) else (),
+            notes=(note,) if self.triangles else (),
             unit="m" if kind in ("glb", "gltf") else "auto",
         )
+
+
+def _loaded(path: Path, kind: str) -> Mesh:
+    """A mesh that is held whole."""
+    vertices, faces, loose, count = [], [], [np.empty((0, 3))], 0
+    for corners, triangles in load_triangles(path, kind):
+        if len(triangles) == 0:
+            loose.append(corners)
+            continue
+        vertices.append(corners)
+        faces.append(triangles + count)
+        count += len(corners)
+    if not vertices:
+        vertices, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+    corners, triangles = np.concatenate(vertices), np.concatenate(faces)
+    near = triangles[_near(corners)[triangles].all(axis=1)]
+
+    def blocks() -> Iterator[Any]:
+        for start in range(0, len(near), BLOCK):
+            yield corners[near[start : start + BLOCK]]
+
+    return Mesh(blocks, len(near), np.concatenate(loose), 0.0, len(triangles) - len(near))
+
+
+def _streamed(pieces: Pieces) -> Mesh:
+    """A mesh that is read again in each pass; what is far away is told by some of its corners."""
+    every = max(1, pieces.count // SAMPLE_TRIANGLES)
+    middle, reach = _middle(np.concatenate([corners[::every].reshape(-1, 3) for corners in pieces.corners()]))
+
+    def blocks() -> Iterator[Any]:
+        for corners in pieces.corners():
+            with np.errstate(over="ignore", invalid="ignore"):
+                near = (np.abs(corners - middle).max(axis=(1, 2))) <= reach
+            yield corners[near]
+
+    kept = sum(len(corners) for corners in blocks())
+    return Mesh(blocks, kept, np.empty((0, 3)), 0.0, pieces.count - kept)
 
 
 def _sample(mesh: Mesh, name: str) -> RawChunk:
@@ -145,21 +172,29 @@ def _chunks(mesh: Mesh, spacing: float, name: str) -> Iterator[RawChunk]:
         with damaged(name, "mesh"):
             ends = carried + np.cumsum(_areas(corners) / spacing**2)
             owner_ends = np.floor(ends).astype(np.int64) - int(np.floor(carried))
-        total = int(owner_ends[-1])
+        total = int(owner_ends[-1]) if len(owner_ends) else 0
         for first in range(0, total, CHUNK_POINTS):
             index = np.arange(first, min(total, first + CHUNK_POINTS))
             owner = np.searchsorted(owner_ends, index, side="right")
             yield RawChunk(_on_triangles(corners[owner], number + index))
-        carried, number = float(ends[-1] % 1.0), number + total
+        carried, number = float(ends[-1] % 1.0) if len(ends) else carried, number + total
 
 
 def _near(vertices: Any) -> Any:
     """(V,) which vertices lie where a building's would."""
     if len(vertices) == 0:
         return np.zeros(0, dtype=bool)
+    middle, reach = _middle(vertices)
     with np.errstate(over="ignore", invalid="ignore"):
-        distance = np.abs(vertices - np.nanmedian(vertices, axis=0)).max(axis=1)
-        return distance <= max(FAR * float(np.nanmedian(distance)), np.finfo(float).tiny)
+        return np.abs(vertices - middle).max(axis=1) <= reach
+
+
+def _middle(vertices: Any) -> tuple[Any, float]:
+    """(3,) where most vertices lie, and how far from it one may be."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        middle = np.nanmedian(vertices, axis=0)
+        distance = np.abs(vertices - middle).max(axis=1)
+        return middle, max(FAR * float(np.nanmedian(distance)), np.finfo(float).tiny)
 
 
 def _areas(corners: Any) -> Any:

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.model import PointChunk, Reconstruction, Trajectory
+from floorplan_core.observer import Observer
+from floorplan_core.readers.ahead import read_ahead
 from floorplan_core.readers.local import SPREAD_LIMIT
 
 Float = NDArray[np.float64]
@@ -49,10 +51,13 @@ def open_alike(count: int, config: InputConfig, open_one: Open) -> list[Reconstr
     return opened
 
 
-def join_surveys(surveys: Sequence[Reconstruction], shared_path: bool = False) -> Reconstruction:
+def join_surveys(
+    surveys: Sequence[Reconstruction], shared_path: bool = False, observer: Observer | None = None
+) -> Reconstruction:
     """One survey of several; :class:`InputError` where they cannot be of one place.
 
-    ``shared_path``: all have the same trajectory, whose rows their scan ids refer to.
+    ``shared_path``: all have the same trajectory, whose rows their scan ids refer to. ``observer`` hears what
+    the readers of the files warn of, in the order of the files.
     """
     ordered = _chronological(surveys, shared_path)
     first = ordered[0]
@@ -63,7 +68,7 @@ def join_surveys(surveys: Sequence[Reconstruction], shared_path: bool = False) -
     scans = [s.scans for s in ordered if s.scans is not None]
     return Reconstruction(
         name=_name(surveys),
-        chunks=lambda: _chunks(parts),
+        chunks=lambda: _chunks(parts, observer),
         point_count=sum(counts) if len(counts) == len(ordered) else None,
         trajectory=path,
         local_frame=frame,
@@ -137,10 +142,10 @@ def _with_paths(
     return tuple(parts), path
 
 
-def _chunks(parts: tuple[_Part, ...]) -> Iterator[PointChunk]:
-    for part in parts:
-        for chunk in part.survey.chunks():
-            yield _moved(chunk, part)
+def _chunks(parts: tuple[_Part, ...], observer: Observer | None) -> Iterator[PointChunk]:
+    """Part by part; the next files are read while one is used."""
+    for number, chunk in read_ahead([part.survey.chunks for part in parts], observer):
+        yield _moved(chunk, parts[number])
 
 
 def _moved(chunk: PointChunk, part: _Part) -> PointChunk:

@@ -13,8 +13,10 @@ from floorplan_core.errors import FloorPlanError, InputError
 from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import Reader, ReadOptions
+from floorplan_core.readers.ahead import RelayedObserver, read_ahead
 from floorplan_core.readers.identify import identify
 from floorplan_core.readers.joining import join_surveys, open_alike
+from floorplan_core.readers.source import CHUNK_POINTS
 from floorplan_core.readers.trajectory import looks_like_trajectory
 
 if TYPE_CHECKING:
@@ -50,7 +52,7 @@ def open_survey(
     given = None if trajectory is None else Path(trajectory)
     if given is not None:
         check_is_file(given, "trajectory")
-    observer = observer or Observer()
+    observer = RelayedObserver(observer or Observer())
     readers = registry.readers if registry is not None and registry.readers else builtin_readers()
     files = [file for p in expand_patterns(paths) for file in clouds_at(p, readers)]
 
@@ -58,12 +60,20 @@ def open_survey(
         return _open_file(files[number], ReadOptions(settings, given), observer, readers)
 
     if len(files) == 1:
-        opened = open_one(0, config or InputConfig())
+        opened = _ahead(open_one(0, config or InputConfig()), observer)
     else:
-        opened = join_surveys(open_alike(len(files), config or InputConfig(), open_one), given is not None)
+        surveys = open_alike(len(files), config or InputConfig(), open_one)
+        opened = join_surveys(surveys, given is not None, observer)
     if len(paths) == 1 and paths[0].is_dir():
         opened = replace(opened, name=paths[0].resolve().name)  # says more than points.ply
     return opened
+
+
+def _ahead(survey: Reconstruction, observer: Observer) -> Reconstruction:
+    """The same survey, whose chunks are read while those before are used; a single chunk needs no thread."""
+    if survey.point_count is not None and survey.point_count <= CHUNK_POINTS:
+        return survey
+    return replace(survey, chunks=lambda: (chunk for _, chunk in read_ahead([survey.chunks], observer)))
 
 
 def _open_file(

@@ -176,3 +176,43 @@ def test_damage(tmp_path, kind):
     mesh = trimesh.creation.icosphere(subdivisions=1, radius=1.0)
     path = write_mesh(tmp_path / f"a.{kind}", mesh)
     assert survives(path, tmp_path, limit=200_000) > 5
+
+
+@pytest.mark.parametrize("kind", ["stl", "ply"])
+def test_large_meshes_are_read_by_pieces(tmp_path, kind, monkeypatch):
+    """The same points as from the mesh held whole, also where one corner lies absurdly far away."""
+    mesh = trimesh.creation.box(extents=SIZE).subdivide().subdivide().subdivide()
+    mesh.vertices[7] = 1e7, 0, 0
+    path = write_mesh(tmp_path / f"a.{kind}", mesh)
+    held, _ = whole(opened(path))
+    monkeypatch.setattr("floorcast_plugins._mesh_pieces.LARGE", 0)
+    monkeypatch.setattr("floorcast_plugins._mesh_pieces.PIECE", 100)
+    monkeypatch.setattr(
+        "floorcast_plugins.mesh.load_triangles", lambda *_: pytest.fail("the mesh was loaded whole")
+    )
+    survey = opened(path)
+    read, _ = whole(survey)
+    assert any("left out" in sentence for sentence in survey.assumptions)
+    assert abs(len(read) - len(held)) <= 1
+    count = min(len(read), len(held))
+    assert np.abs(read[:count] - held[:count]).max() < 1e-3 or kind == "stl"
+    assert np.quantile(np.abs(np.abs(read) - SIZE / 2).min(axis=1), 0.999) < 1e-5
+
+
+def test_polygons_are_not_read_by_pieces(tmp_path, monkeypatch):
+    text = b"ply\nformat binary_little_endian 1.0\nelement vertex 4\n"
+    text += b"".join(b"property float %c\n" % a for a in b"xyz")
+    text += b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    corners = np.array([[0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0]], dtype="<f4")
+    path = tmp_path / "a.ply"
+    path.write_bytes(text + corners.tobytes() + struct.pack("<B4i", 4, 0, 1, 2, 3))
+    monkeypatch.setattr("floorcast_plugins._mesh_pieces.LARGE", 0)
+    points, _ = whole(opened(path))
+    assert len(points) == pytest.approx(12 / 0.025**2, rel=1e-3)
+
+
+def test_too_large_for_the_memory(tmp_path, monkeypatch):
+    path = write_mesh(tmp_path / "a.obj", box())
+    monkeypatch.setattr("floorcast_plugins._mesh_pieces.LARGE", 0)
+    monkeypatch.setattr("floorcast_plugins._mesh_pieces.free_memory", lambda: 1000)
+    assert "read by pieces" in refusal(path)
