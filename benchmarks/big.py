@@ -1,0 +1,312 @@
+"""``python -m benchmarks.big [--points N] [--keep FOLDER] [laz e57 ply]``: a cloud of 100 million points.
+
+A large office is simulated and every point is a ray cast of its own: tripod stations in each room and along
+the corridors turn as often as it takes, each turn from another start angle and with its own errors. The
+points are written station by station, so that making them needs the memory of one turn. As E57 each station
+is a scan with its pose; as LAZ the cloud is merged, with GPS times and the stations as a trajectory beside
+it; as PLY it is merged and carries the number of the station.
+
+Each file, and one of a tenth of the points, is read by the format's own library alone and then planned as
+``floorcast plan --no-pictures`` does, each in a process of its own: wall and CPU seconds, points and MB a
+second, the most memory of the process and its children. From the growth between the two sizes follow the
+figures of 1000 million points. What the plan is worth is measured against the simulated truth.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.bench_io import SMALL, plain
+
+FORMATS = ("laz", "e57", "ply")
+RAYS = 900_000  # of one turn of the scanner: memory while the cloud is made
+ASPECT, RETURNS = 2.4, 0.98  # columns by rows of a turn; share of its rays that come back
+SEED, YAW = 5, 17.0
+PROJECTED = 10**9
+Turn = tuple[np.ndarray, np.ndarray, int]  # (N, 3) points in the station's frame, its pose, its number
+
+
+def turns(count: int, folder: Path) -> Iterator[Turn]:
+    """``count`` ray casts, turn by turn; the truth and the stations go to ``folder``."""
+    from floorplan_core.simulation import BuildingSpec, SurveySpec, sensor_preset
+    from floorplan_core.simulation.architect import make_building
+    from floorplan_core.simulation.files import tum_bytes
+    from floorplan_core.simulation.poses import sensor_poses, world_from_building
+    from floorplan_core.simulation.sensors import make_scene, scan
+    from floorplan_core.simulation.truth import ground_truth
+    from floorplan_core.simulation.walk import explore, floor_grid
+
+    spec = SurveySpec(BuildingSpec(style="grid", rooms=80), sensor_preset("station"), seed=SEED)
+    rng = np.random.default_rng(SEED)
+    building = make_building(spec.building, rng)
+    walk = explore(building, floor_grid(building), 1.0, rng)
+    poses, scene = sensor_poses(walk, spec, rng), make_scene(building)
+    T_world_building = world_from_building(spec, YAW)
+    truth = ground_truth(spec, building, walk, poses, T_world_building, YAW, scene)
+    (folder / "truth.json").write_text(json.dumps(truth))
+    T = T_world_building @ poses.T_building_sensor
+    (folder / "stations.tum").write_bytes(tum_bytes(poses.stamps, T))
+    shares = np.diff(np.linspace(0, count, len(T) + 1).astype(int))
+    rows = max(8, round((min(RAYS, shares.max() / RETURNS) / ASPECT) ** 0.5))
+    sensor = sensor_preset("station", rows=rows, columns=round(ASPECT * rows))
+    for k, left in enumerate(shares.tolist()):
+        while left > 0:
+            points, _ = scan(scene, sensor, poses.T_building_sensor[k : k + 1], rng)
+            if len(points) > left:
+                points = points[np.sort(rng.permutation(len(points))[:left])]
+            left -= len(points)
+            yield points, T[k], k
+
+
+@contextmanager
+def laz_file(path: Path, count: int) -> Iterator[Callable[[Turn], None]]:
+    """A merged cloud, millimetres, GPS time."""
+    import laspy
+
+    header = laspy.LasHeader(version="1.4", point_format=6)
+    header.scales = np.full(3, 1e-3)
+    seconds = np.loadtxt(path.parent / "stations.tum")[:, 0]
+    with laspy.open(path, mode="w", header=header) as file:
+
+        def write(turn: Turn) -> None:
+            points, pose, k = turn
+            record = laspy.ScaleAwarePointRecord.zeros(len(points), header=header)
+            record.x, record.y, record.z = (points @ pose[:3, :3].T + pose[:3, 3]).T
+            record.gps_time = np.full(len(points), seconds[k])
+            file.write_points(record)
+
+        yield write
+
+
+@contextmanager
+def e57_file(path: Path, count: int) -> Iterator[Callable[[Turn], None]]:
+    """A scan for each station."""
+    import pye57
+    from scipy.spatial.transform import Rotation
+
+    waiting: list[Turn] = []
+    with pye57.E57(str(path), "w") as file:
+
+        def flush() -> None:
+            points, pose = np.concatenate([t[0] for t in waiting]), waiting[0][1]
+            columns = {f"cartesian{a}": points[:, k].astype(np.float64) for k, a in enumerate("XYZ")}
+            x, y, z, w = Rotation.from_matrix(pose[:3, :3]).as_quat()
+            file.write_scan_raw(columns, rotation=np.array([w, x, y, z]), translation=pose[:3, 3])
+            waiting.clear()
+
+        def write(turn: Turn) -> None:
+            if waiting and turn[2] != waiting[0][2]:
+                flush()
+            waiting.append(turn)
+
+        yield write
+        flush()
+
+
+@contextmanager
+def ply_file(path: Path, count: int) -> Iterator[Callable[[Turn], None]]:
+    """A merged cloud with ``scan_id``, 16 bytes a point."""
+    head = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
+    head += [f"property float {axis}" for axis in "xyz"] + ["property int scan_id", "end_header", ""]
+    with path.open("wb") as file:
+        file.write("\n".join(head).encode())
+
+        def write(turn: Turn) -> None:
+            points, pose, k = turn
+            record = np.empty(len(points), dtype=[("xyz", "<f4", 3), ("scan_id", "<i4")])
+            record["xyz"], record["scan_id"] = points @ pose[:3, :3].T + pose[:3, 3], k
+            file.write(record.tobytes())
+
+        yield write
+
+
+WRITERS = {"laz": laz_file, "e57": e57_file, "ply": ply_file}
+
+
+def make(folder: Path, kinds: Sequence[str], count: int) -> None:
+    """The cloud of ``count`` points in all formats in which it is not there yet."""
+    folder.mkdir(parents=True, exist_ok=True)
+    missing = [path for path in (cloud(folder, kind, count) for kind in kinds) if not path.exists()]
+    if not missing:
+        return
+    stream = turns(count, folder)
+    first = next(stream)  # leaves the stations, which the writers ask for
+    with ExitStack() as files:
+        writers = [files.enter_context(WRITERS[path.suffix[1:]](path, count)) for path in missing]
+        for turn in chain([first], stream):
+            for write in writers:
+                write(turn)
+
+
+def cloud(folder: Path, kind: str, count: int) -> Path:
+    """Where the cloud is."""
+    return folder / f"big-{count / 1e6:g}M.{kind}"
+
+
+def trajectory_of(path: Path) -> Path | None:
+    """The stations, for formats that do not hold them."""
+    return None if path.suffix == ".e57" else path.parent / "stations.tum"
+
+
+def read_plainly(path: Path) -> None:
+    """All coordinates with the format's own library."""
+    if path.suffix == ".ply":
+        with path.open("rb") as file:  # no library reads it by pieces
+            while file.read(1 << 22):
+                pass
+    else:
+        plain(path)
+
+
+def plan(path: Path) -> None:
+    """``floorcast plan`` without pictures into a folder beside the file; the kernels are loaded before."""
+    from floorplan_core.cli.main import main as floorcast
+
+    given = trajectory_of(path)
+    arguments = [] if given is None else ["--trajectory", str(given)]
+    out = path.with_name(path.name + ".plan")
+    status = floorcast(["plan", str(path), *arguments, "--out", str(out), "--no-pictures", "--quiet"])
+    if status:
+        raise SystemExit(status)
+
+
+def measure(path: Path, how: str) -> dict[str, float]:
+    """One job in this process."""
+    if how == "plan":
+        from floorplan_core.pipeline import process
+        from floorplan_core.readers import open_survey
+
+        process(open_survey(SMALL))
+    wall, cpu = time.perf_counter(), _cpu()
+    {"plain": read_plainly, "plan": plan}[how](path)
+    return {"seconds": time.perf_counter() - wall, "cpu": _cpu() - cpu}
+
+
+def _cpu() -> float:
+    """CPU seconds of this process and of its children that ended."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
+
+
+def run_apart(path: Path, how: str) -> dict[str, float]:
+    """:func:`measure` in a process of its own, whose memory is watched with that of its children."""
+    command = [sys.executable, "-m", "benchmarks.big", "--one", how, str(path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:
+        peak = 0.0
+        while child.poll() is None:
+            peak = max(peak, _memory(child.pid))
+            time.sleep(0.02)
+        output = child.stdout.read() if child.stdout else ""
+    if child.returncode:
+        raise SystemExit(child.returncode)
+    found: dict[str, float] = json.loads(output.splitlines()[-1])
+    return found | {"peak_mb": peak}
+
+
+def _memory(pid: int) -> float:
+    """MB of a process and all below it; that of processes which share pages is counted for each."""
+    total, waiting = 0.0, [pid]
+    while waiting:
+        each = waiting.pop()
+        try:
+            status = Path(f"/proc/{each}/status").read_text()
+            waiting += [
+                int(c)
+                for t in Path(f"/proc/{each}/task").iterdir()
+                for c in (t / "children").read_text().split()
+            ]
+        except (OSError, ValueError):
+            continue
+        total += int(status.partition("VmRSS:")[2].split()[0]) / 1024 if "VmRSS:" in status else 0.0
+    return total
+
+
+def bench(folder: Path, kind: str, count: int) -> dict[str, Any]:
+    """One format at a tenth of the points and at all of them."""
+    found: dict[str, Any] = {"format": kind}
+    for points in (count // 10, count):
+        path = cloud(folder, kind, points)
+        found[str(points)] = {
+            "points": points,
+            "mb": path.stat().st_size / 1e6,
+            "plain": run_apart(path, "plain"),
+            "plan": run_apart(path, "plan"),
+            "worth": worth(path),
+        }
+    return found
+
+
+def worth(path: Path) -> str:
+    """The plan against the truth, in one line."""
+    from floorplan_core.evaluation import evaluate
+
+    return evaluate(path.with_name(path.name + ".plan"), path.parent / "truth.json").summary()
+
+
+def report(found: dict[str, Any], count: int) -> Iterator[str]:
+    """The lines of one format."""
+    small, large = found[str(count // 10)], found[str(count)]
+    for at in (small, large):
+        for how in ("plain", "plan"):
+            m, points = at[how], at["points"] / 1e6
+            yield (
+                f"{found['format']:<5}{points:8.1f} M {at['mb']:7.0f} MB  {how:<6}{m['seconds']:8.1f} s wall "
+                f"{m['cpu']:8.1f} s CPU {at['mb'] / m['seconds']:6.0f} MB/s {points / m['seconds']:7.2f} M "
+                f"points/s {m['peak_mb']:7.0f} MB"
+            )
+    yield f"      {large['worth']}"
+    millions = (large["points"] - small["points"]) / 1e6
+    more = (PROJECTED - large["points"]) / 1e6
+    reads, plans = ((large[how]["cpu"] - small[how]["cpu"]) / millions for how in ("plain", "plan"))
+    memory = (large["plan"]["peak_mb"] - small["plan"]["peak_mb"]) / millions
+    yield (
+        f"      each further million points: {reads:.3f} s CPU to read, {plans:.3f} s to plan "
+        f"({plans / max(reads, 1e-9):.1f} times), {memory:.2f} MB"
+    )
+    yield (
+        f"      1000 M points, were the growth linear: {large['plain']['cpu'] + more * reads:.0f} s to read, "
+        f"{large['plan']['cpu'] + more * plans:.0f} s CPU to plan, "
+        f"{large['plan']['peak_mb'] + more * memory:.0f} MB"
+    )
+
+
+def main(arguments: list[str]) -> int:
+    """The tables; 2 for wrong use."""
+    if arguments[:1] == ["--one"]:
+        print(json.dumps(measure(Path(arguments[2]), arguments[1])))
+        return 0
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.big")
+    parser.add_argument("--points", type=float, default=1e8)
+    parser.add_argument("--keep", type=Path, help="folder that keeps the clouds for the next time")
+    parser.add_argument("formats", nargs="*", choices=[*FORMATS, []])
+    given = parser.parse_args(arguments)
+    count = int(given.points)
+    print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores", flush=True)
+    kinds = given.formats or FORMATS[:2]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = given.keep or Path(temporary)
+        for points in (count // 10, count):
+            make(folder, kinds, points)
+        for kind in kinds:
+            found = bench(folder, kind, count)
+            for line in report(found, count):
+                print(line, flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
