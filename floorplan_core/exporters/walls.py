@@ -136,26 +136,15 @@ def _strips(sides: Sequence[tuple[Region, RegionSide]], thickness: float, thicke
 
 def predicted_cells(plan: FloorPlan) -> NDArray[np.bool_]:
     """(ny, nx) cells of predicted floor, without the specks along walls and under furniture."""
-    from scipy.ndimage import label
+    from floorplan_core.geometry.masks import label_patches, widened  # numba is slow to import
 
     unseen = regions_mask(plan.regions, plan.grid) & (plan.grid.states != FREE)
-    core = ~_grown(_grown(~unseen))  # what is at least five cells wide: no wall, no table edge
-    patches, _ = label(_grown(_grown(_grown(core))) & unseen)
+    core = ~widened(widened(~unseen))  # what is at least five cells wide: no wall, no table edge
+    patches, _ = label_patches(widened(widened(widened(core))) & unseen)
     sizes = np.bincount(patches.ravel()) * plan.grid.cell**2
     sizes[0] = 0.0
     large: NDArray[np.bool_] = sizes[patches] >= MIN_PREDICTED
     return large
-
-
-def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The mask and its eight neighbours."""
-    wide = mask.copy()
-    wide[:, 1:] |= mask[:, :-1]
-    wide[:, :-1] |= mask[:, 1:]
-    tall = wide.copy()
-    tall[1:] |= wide[:-1]
-    tall[:-1] |= wide[1:]
-    return tall
 
 
 def predicted_floor(plan: FloorPlan) -> Any:

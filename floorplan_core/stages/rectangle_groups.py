@@ -38,16 +38,13 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
 
     Each group is its rows, and the boxes (K, 4) that join what a border of a few centimetres parts.
     """
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components
-
     if len(bounds) == 0:
         return []
     x0, y0, x1, y1 = bounds.T
     wide = np.minimum(x1[:, None], x1) - np.maximum(x0[:, None], x0)
     high = np.minimum(y1[:, None], y1) - np.maximum(y0[:, None], y0)
     linked = (wide > _OVERLAP) & (high > _OVERLAP)
-    count, label = connected_components(csr_array(linked), directed=False)
+    label = _components(linked)
     parted = (np.minimum(wide, high) < 0) | (
         label[:, None] != label
     )  # others touch and are one region anyway
@@ -60,9 +57,26 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
         if joints:
             linked[i, j] = linked[j, i] = True
             bridges.setdefault(i, []).extend(joints)
-    count, label = connected_components(csr_array(linked), directed=False)
-    groups = [np.flatnonzero(label == k) for k in range(count)]
+    label = _components(linked)
+    groups = [np.flatnonzero(label == k) for k in range(int(label.max()) + 1)]
     return [(g, np.array([b for i in g for b in bridges.get(int(i), [])]).reshape(-1, 4)) for g in groups]
+
+
+def _components(linked: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(C,) the component of each node of a symmetric adjacency matrix, numbered by their first nodes.
+
+    A few lines, where the module of SciPy that has it takes a quarter of a second to import.
+    """
+    label = np.full(len(linked), -1, dtype=np.int64)
+    for first in range(len(linked)):
+        if label[first] < 0:
+            number = int(label.max()) + 1
+            label[first], open_ = number, [first]
+            while open_:
+                new = np.flatnonzero(linked[open_.pop()] & (label < 0))
+                label[new] = number
+                open_ += new.tolist()
+    return label
 
 
 def _by_offset(walls: Float) -> tuple[list[float], list[tuple[float, float]]]:

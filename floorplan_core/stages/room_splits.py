@@ -15,6 +15,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.masks import label_patches, widened
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import Door, LayoutPlane, OccupancyGrid
@@ -52,10 +53,10 @@ class RoomSplitter:
 
     def _patches(self, free: Mask, window: tuple[slice, slice]) -> list[Mask]:
         """The patches before doors; those before one door are one."""
-        from scipy.ndimage import binary_dilation, label
-
-        near = binary_dilation(free, np.ones((3, 3), dtype=bool), iterations=_JOINED)
-        labels = np.where(free, label(near, np.ones((3, 3)))[0], 0)
+        near = free
+        for _ in range(_JOINED):
+            near = widened(near)
+        labels = np.where(free, label_patches(near, 8)[0], 0)
         large = np.bincount(labels.ravel()) * self._grid.cell**2 >= _LEAST
         large[0] = False
         if np.count_nonzero(large) < 2:
