@@ -63,10 +63,11 @@ class MeshReader:
         mesh = Mesh.of(path, kind)
         observer.check_cancelled()
         # The unit decides how dense the points must be, and only the points show the unit.
-        probe = mesh.source(path, kind, mesh.spacing_of(SAMPLE_POINTS))
+        sample = _sample(mesh, path.name)
+        probe = mesh.source(path, kind, mesh.spacing_of(SAMPLE_POINTS), sample)
         scale = assemble(probe, options, Observer()).local_frame.scale
         spacing = max(SPACING / scale, mesh.spacing_of(MAX_POINTS))
-        return assemble(mesh.source(path, kind, spacing, scale), options, observer)
+        return assemble(mesh.source(path, kind, spacing, sample, scale), options, observer)
 
 
 @dataclass(frozen=True)
@@ -88,16 +89,20 @@ class Mesh:
         if pieces is None:
             check_memory(path, kind)
         mesh = _loaded(path, kind) if pieces is None else _streamed(pieces)
-        area = sum(float(_areas(corners).sum()) for corners in mesh.blocks())
+        kept, area = 0, 0.0
+        for corners in mesh.blocks():
+            kept, area = kept + len(corners), area + float(_areas(corners).sum())
         if not area > 0 and not len(mesh.loose):
             raise EmptyInput(f"{path.name} is a mesh without any surface.")
-        return replace(mesh, area=area)
+        return replace(mesh, area=area, triangles=kept, left_out=mesh.triangles - kept)
 
     def spacing_of(self, count: int) -> float:
         """The spacing, file units, at which the surface takes ``count`` points."""
         return float(np.sqrt(self.area / count))
 
-    def source(self, path: Path, kind: str, spacing: float, scale: float = 1.0) -> PointSource:
+    def source(
+        self, path: Path, kind: str, spacing: float, sample: RawChunk, scale: float = 1.0
+    ) -> PointSource:
         """Points ``spacing`` file units apart."""
         count = len(self.loose) + (int(self.area / spacing**2) if spacing > 0 else 0)
         note = (
@@ -110,7 +115,7 @@ class Mesh:
             path,
             f"{kind.upper()} mesh",
             partial(_chunks, self, spacing, path.name),
-            partial(_sample, self, path.name),
+            lambda: sample,
             count,
             notes=(note,) if self.triangles else (),
             unit="m" if kind in ("glb", "gltf") else "auto",
@@ -136,7 +141,7 @@ def _loaded(path: Path, kind: str) -> Mesh:
         for start in range(0, len(near), BLOCK):
             yield corners[near[start : start + BLOCK]]
 
-    return Mesh(blocks, len(near), np.concatenate(loose), 0.0, len(triangles) - len(near))
+    return Mesh(blocks, len(triangles), np.concatenate(loose), 0.0)
 
 
 def _streamed(pieces: Pieces) -> Mesh:
@@ -150,8 +155,7 @@ def _streamed(pieces: Pieces) -> Mesh:
                 near = (np.abs(corners - middle).max(axis=(1, 2))) <= reach
             yield corners[near]
 
-    kept = sum(len(corners) for corners in blocks())
-    return Mesh(blocks, kept, np.empty((0, 3)), 0.0, pieces.count - kept)
+    return Mesh(blocks, pieces.count, np.empty((0, 3)), 0.0)
 
 
 def _sample(mesh: Mesh, name: str) -> RawChunk:
