@@ -175,9 +175,8 @@ def _door_part(door: Door, height: float) -> Part:
     top = min(door.height or DOOR_HEIGHT, height)
     half = np.zeros(2)
     half[door.axis] = max(door.thickness, THINNEST_DOOR) / 2 + PROUD
-    near, far = (
-        on_wall(door.axis, door.offset, np.array([door.start, door.end])) + side for side in (-half, half)
-    )
+    half = door.in_plan(half[None])[0]
+    near, far = (door.line() + side for side in (-half, half))
     jambs = [quad(np.array([near[k], far[k]]), 0.0, top) for k in (0, 1)]
     corners = raised(np.array([near[0], near[1], far[1], far[0]]), top)
     lid = np.array([corners[[0, 1, 2]], corners[[0, 2, 3]]])

@@ -80,6 +80,11 @@ class FrameConfig(Section):
     yaw_deg: float | None = setting(
         None, "deg", "Force the yaw of the walls instead of estimating it.", ge=-180, le=180
     )
+    wings: bool = setting(
+        True,
+        "",
+        "Plan a wing that stands at another angle in a frame of its own.",
+    )
 
 
 class StoreysConfig(Section):

@@ -67,6 +67,7 @@ def known_classes() -> dict[str, type]:
 STAGE_CLASSES = {  # of stage results; imported only when one is met, as compiled code comes with them
     "Evidence": "floorplan_core.model.evidence",
     "Surfels": "floorplan_core.geometry.surfel_map",
+    "Part": "floorplan_core.stages.wings",
     "SegmentRows": "floorplan_core.stages.layout_segments",
 }
 

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
 from floorplan_core.errors import NoPlanError, UsageError
+from floorplan_core.layout import lay_out
+from floorplan_core.layout_wings import add_wings
 from floorplan_core.model import (
     Door,
     FloorPlan,
-    LayoutPlane,
     LocalFrame,
     ManhattanFrame,
     OccupancyGrid,
@@ -36,23 +37,11 @@ from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
-from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
-from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.corrections import Remarks, in_plan
-from floorplan_core.stages.corrections_doors import correct_doors, follow_planes
-from floorplan_core.stages.corrections_regions import Surroundings, correct_names, correct_shapes
-from floorplan_core.stages.corrections_walls import correct_walls, still_walls
-from floorplan_core.stages.doors import find_doors
+from floorplan_core.stages.corrections_regions import correct_names
 from floorplan_core.stages.labels import label_regions
-from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
-from floorplan_core.stages.layout_segments import find_segments
-from floorplan_core.stages.narrowings import find_openings
-from floorplan_core.stages.occupancy import slice_map
-from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
-from floorplan_core.stages.regions import build_regions, connect_doors
-from floorplan_core.stages.set_cover import cover as cover_free_space
-from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.stages.regions import connect_doors
 from floorplan_core.stages.storeys import (
     find_storeys,
     is_tall,
@@ -62,6 +51,7 @@ from floorplan_core.stages.storeys import (
 )
 from floorplan_core.stages.voxel_columns import gather_evidence
 from floorplan_core.stages.wall_points import thin_wall_points
+from floorplan_core.stages.wings import Part, find_wing, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
 from floorplan_core.survey_map import SurveyMap
 
@@ -133,68 +123,22 @@ class FloorPlanner:
 
         frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
         evidence = stage("occupancy", lambda: self._evidence_of(storey, frame), frame, config.voxels)
+        parts = stage("occupancy", lambda: self._parts_of(storey, frame, evidence), evidence, config.frame)
         say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
-        segments, rows = stage(
-            "segments", lambda: find_segments(evidence, config.segments), evidence, config.segments
-        )
-        parts, beams = config.planes, (config.doors.max_beamless, config.doors.lintel_depth)
-        segments, planes = stage(
-            "planes",
-            lambda: find_planes(segments, rows, evidence, parts, config.doors),
-            *(segments, rows, evidence, parts, config.doors),
-        )
-        planes = stage("planes", lambda: close_corners(remove_beams(planes, *beams)), planes, beams)
-        machine = stage("planes", lambda: mark_recesses(planes, parts), planes, parts)
-        planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
-
-        seen = still_walls(machine, planes)
-        doors = stage(
-            "doors", lambda: find_openings(seen, evidence, config.doors), seen, evidence, config.doors
-        )
-        doors, planes, remarks = stage.correct(
-            "doors",
-            lambda: self._corrected_doors(doors, planes, machine, say.doors, evidence),
-            *(doors, planes, machine, say.doors, evidence, config.doors),
-        )
-        said += remarks
-        grid = stage(
-            "occupancy",
-            lambda: slice_map(evidence, planes, doors, config.occupancy),
-            *(evidence, planes, doors, config.occupancy),
-        )
-        walls, paired = blockers(planes, doors), pairable(planes, parts)
-        layout = (planes, doors, grid, parts, config.candidates)
-        candidates = stage(
-            "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, self.observer), *layout
-        )
-        cover = stage(
-            "cover",
-            lambda: cover_free_space(candidates, grid, config.cover, self.observer),
-            *(candidates, grid, config.cover),
-        )
-        planes, cover = stage(
-            "cover",
-            lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
-            *(cover, config.cover, *layout),
-        )
-        found = (planes, segments, doors, grid)
-        regions = stage(
-            "regions",
-            lambda: build_regions(cover, *found, config.regions),
-            *(cover, *found, config.regions),
-        )
-        regions, planes, remarks = stage.correct(
-            "shapes",
-            lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
-            *(regions, say.shapes, *found, config.regions),
-        )
-        said += remarks
+        if parts:
+            main = lay_out(parts[0].evidence, config, stage, self.observer, say, parts[0].cells)
+            made, wings = stage.correct(
+                "wings", lambda: add_wings(main, parts, config, self.observer), main, parts, config
+            )
+        else:
+            made, wings = lay_out(evidence, config, stage, self.observer, say), ()
+        segments, planes, doors, grid, said = made.segments, made.planes, made.doors, made.grid, made.remarks
+        regions, cover = made.regions, made.cover
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
-        regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
         regions, doors = self._named(self._some(regions), doors, storey, frame)
         regions, remarks = correct_names(regions, say.names)
-        said += remarks + self._lost(found[2], doors)
+        said += remarks + self._lost(made.doors, doors)
         points = stage("regions", lambda: thin_wall_points(evidence, segments), evidence, segments)
 
         self.observer.check_cancelled()
@@ -205,7 +149,7 @@ class FloorPlanner:
             planes=planes,
             doors=doors,
             grid=grid,
-            candidates=candidates,
+            candidates=made.candidates,
             cover=cover,
             regions=regions,
             wall_points=points,
@@ -218,27 +162,8 @@ class FloorPlanner:
             storey=storey,
             corrected=by_hand(planes, doors, regions),
             machine=said.machine_said(),
+            wings=wings,
         )
-
-    def _corrected_doors(
-        self,
-        doors: tuple[Door, ...],
-        planes: tuple[LayoutPlane, ...],
-        machine: tuple[LayoutPlane, ...],
-        corrections: tuple[Correction, ...],
-        evidence: Evidence,
-    ) -> tuple[tuple[Door, ...], tuple[LayoutPlane, ...], Remarks]:
-        """The doors in the corrected planes, with what a person said of them."""
-        sure = self.config.doors
-
-        def followed(found: tuple[Door, ...]) -> tuple[Door, ...]:
-            return follow_planes(found, machine, planes, sure.max_thickness)
-
-        def faint() -> tuple[Door, ...]:
-            unsure = sure.model_copy(update={"min_confidence": 0.0})
-            return followed(find_doors(still_walls(machine, planes), evidence, unsure))
-
-        return correct_doors(followed(doors), planes, corrections, sure, faint)
 
     def _frame_and_storeys(self) -> tuple[ManhattanFrame, tuple[Storey, ...]]:
         """The frame of the whole survey, and its storeys in it; found once for the points so far."""
@@ -281,6 +206,15 @@ class FloorPlanner:
         surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
         found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
         return replace(restrict_evidence(found, chosen), frame=frame)
+
+    def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
+        """The evidence of the building and of each wing that stands at another angle; () where none does."""
+        wing = find_wing(evidence, self.config.frame) if self.config.frame.wings else None
+        if wing is None:
+            return ()
+        turned = self._evidence_of(storey, wing_frame(frame, wing.turn))
+        floor = same_floor(wing.cells, evidence, turned, wing.turn)
+        return part_of(evidence, ~wing.cells, 0.0), part_of(turned, floor, wing.turn)
 
     def _require_room(self) -> None:
         """Raise :class:`NoPlanError` where there is too little to begin with."""

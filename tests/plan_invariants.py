@@ -106,7 +106,7 @@ def assert_doors(plan: FloorPlan) -> None:
 
 def assert_flags(plan: FloorPlan) -> None:
     """Seen and predicted are told apart, and the numbers agree with the grid."""
-    planes = {p.id: p for p in plan.planes}
+    planes = {p.id: p for p in (*plan.planes, *(p for wing in plan.wings for p in wing.planes))}
     grid = plan.grid
     assert ((grid.states == FREE) | ~grid.universe).all()  # the universe is free
     for region in plan.regions:

@@ -58,8 +58,8 @@ def item_shape(source: PlanSource, item: Item) -> ItemShape:
 
 def _door_ring(source: PlanSource, id: str) -> Rings:
     """The opening, from face to face of its wall."""
-    x0, y0, x1, y1 = next(o.bounds for o in source.walls.openings if o.door.id == id)
-    return (np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]),)
+    (a, b), (d, c) = next(o.faces for o in source.walls.openings if o.door.id == id)
+    return (np.array([a, b, c, d, a]),)
 
 
 def anchor(source: PlanSource, item: Item) -> tuple[float, float] | None:

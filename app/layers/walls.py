@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from floorcast_app.layers.source import PlanSource, Rings, rings
 from floorcast_app.selection import Item
 from floorplan_core.exporters.door_symbols import Leaf
@@ -22,8 +25,8 @@ class DoorShape:
     """One door or opening."""
 
     item: Item
-    axis: int  # of the wall's normal: 0 the wall runs along y
-    bounds: tuple[float, float, float, float]  # x0, y0, x1, y1 of the cut, metres, manhattan frame
+    bounds: tuple[float, float, float, float]  # x0, y0, x1, y1 around the cut, metres, manhattan frame
+    faces: NDArray[np.float64]  # (2, 2, 2) ends of the two faces of the wall across it
     leaves: tuple[Leaf, ...]  # none for an opening
     sure: bool  # False: less than even odds
 
@@ -45,7 +48,7 @@ def doors_layer(source: PlanSource) -> DoorsLayer:
     pairs = zip(source.walls.openings, source.swings, strict=True)
     return DoorsLayer(
         tuple(
-            DoorShape(Item("door", o.door.id), o.door.axis, o.bounds, made, o.door.confidence >= 0.5)
+            DoorShape(Item("door", o.door.id), o.bounds, o.faces, made, o.door.confidence >= 0.5)
             for o, made in pairs
         )
     )

@@ -167,7 +167,7 @@ class _View:
 
     def door(self, door: Door) -> None:
         item = Item("door", door.id)
-        ends = self._in_section(on_wall(door.axis, door.offset, np.array([door.start, door.end])))
+        ends = self._in_section(door.line())
         if self._hidden(item) or ends is None:
             return
         owner, lit = self._own(item), self._lit(item)
@@ -175,6 +175,7 @@ class _View:
         colour = self._tint(item, ramps.packed(self._holds.door))
         half = np.zeros(2)
         half[door.axis] = max(door.thickness, 0.04) / 2
+        half = door.in_plan(half[None])[0]
         alpha = HIGHLIGHT["door"] if lit else ALPHA["door"]
         self._walls.surface(
             quad(ends, 0.0, top), colour, alpha, owner, HATCH if door.kind == "opening" else 0

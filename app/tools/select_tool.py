@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeGuard
 
 from floorcast_app import format
 from floorcast_app.layers.snap_index import snap_offset
@@ -159,12 +159,12 @@ class SelectTool(Tool):
         thing = self.workbench.find(items[0]) if len(items) == 1 else None
         if isinstance(thing, LayoutPlane):
             return PlaneDrag(thing, _middle(thing), thing.offset)
-        return DoorDrag(thing, 1, thing.end) if isinstance(thing, Door) else None
+        return DoorDrag(thing, 1, thing.end) if _can_be_dragged(thing) else None
 
     def _grip(self, at: At) -> PlaneDrag | DoorDrag | None:
         """Hold of what is selected, where the pointer is on it."""
         thing = self.workbench.find(self.workbench.selection.item)
-        if isinstance(thing, Door):
+        if _can_be_dragged(thing):
             ends = door_ends(thing, thing.start, thing.end)
             away = [distance(at.xy, end) for end in ends]
             k = away.index(min(away))
@@ -176,7 +176,7 @@ class SelectTool(Tool):
     def _grips(self) -> tuple[Mark, ...]:
         """Dots where a selected door can be taken hold of."""
         thing = self.workbench.find(self.workbench.selection.item)
-        if not isinstance(thing, Door):
+        if not _can_be_dragged(thing):
             return ()
         return (Mark("grips", door_ends(thing, thing.start, thing.end)),)
 
@@ -197,6 +197,11 @@ class SelectTool(Tool):
             return
         a, b = door_ends(held.door, *_span(held))
         self.workbench.try_run("correct.resize_door", door=held.door.id, start=a, end=b)
+
+
+def _can_be_dragged(thing: object) -> TypeGuard[Door]:
+    """True for doors, but for those of wings: corrections know the plan's own axes only."""
+    return isinstance(thing, Door) and thing.turn == 0.0
 
 
 def door_ends(door: Door, start: float, end: float) -> tuple[Point, Point]:

@@ -118,8 +118,7 @@ class DoorsView:
         for shape, leaf, swing in self._shapes:
             if not frame.shows("door", shape.item.id):
                 continue
-            x0, y0, x1, y1 = shape.bounds
-            painter.fillRect(QRectF(x0, y0, x1 - x0, y1 - y0), colour(frame.colours.door))
+            painter.fillPath(_opening(shape), colour(frame.colours.door))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             dashes = None if shape.sure and shape.leaves else (4.0, 3.0)
             painter.setPen(plan_pen(frame, ink, 1.1, 1.0, dashes))
@@ -177,10 +176,20 @@ def _accent(frame: Frame, tone: str) -> str:
     return QColor.fromHslF(max(h, 0.0), min(s * 1.1, 1.0), value).name()
 
 
+def _opening(shape: DoorShape) -> QPainterPath:
+    """The ground between the two faces."""
+    (a, b), (d, c) = shape.faces.tolist()
+    path = QPainterPath()
+    path.moveTo(*a)
+    for corner in (b, c, d):
+        path.lineTo(*corner)
+    path.closeSubpath()
+    return path
+
+
 def _faces(shape: DoorShape) -> QPainterPath:
     """The two faces of the wall across an opening."""
-    x0, y0, x1, y1 = shape.bounds
-    ends = ((x0, y0, x0, y1), (x1, y0, x1, y1)) if shape.axis == 0 else ((x0, y0, x1, y0), (x0, y1, x1, y1))
+    ends = shape.faces.reshape(2, 4).tolist()
     path = QPainterPath()
     for a, b, c, d in ends:
         path.moveTo(a, b)

@@ -161,7 +161,7 @@ def _manhattan(found: SurveyInfo) -> str:
         if other is None
         else (
             f"\n{other['share']:.0%} stand {abs(other['from_frame_deg']):.0f} degrees from it: "
-            "another wing, perhaps; its rooms are drawn in the one frame"
+            "a wing, where rooms follow it, is planned in a frame of its own"
         )
     )
     return (

@@ -8,7 +8,7 @@ at the start.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -46,6 +46,8 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
     """The leaves of a door; none for an opening."""
     if opening.door.kind != "door":
         return ()
+    if opening.door.turn:
+        return _of_wing(opening, regions)
     options: list[tuple[tuple[bool, bool, float], int, tuple[Leaf, ...], Region | None]] = []
     polygons = np.array([r.polygon for r in regions], dtype=object)
     for direction in (-1, 1):
@@ -56,6 +58,14 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
             options.append((cost, len(options), _make(opening, direction, hinge), region))
     options.sort(key=lambda option: option[:2])
     return next((made for _, _, made, region in options if _clear(made, region)), options[0][2])
+
+
+def _of_wing(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
+    """The same in the axes of the door's wall, brought into the plan."""
+    door = opening.door
+    own = [replace(r, polygon=shapely.transform(r.polygon, door.in_own)) for r in regions]
+    made = leaves(replace(opening, door=replace(door, turn=0.0)), own)
+    return tuple(Leaf(*door.in_plan(np.array([leaf.hinge, leaf.tip, leaf.closed]))) for leaf in made)
 
 
 def _cost(opening: Opening, region: Region | None, hinge: str) -> tuple[bool, bool, float]:
@@ -87,7 +97,7 @@ def _beyond(opening: Opening, direction: int) -> Float:
     axis = opening.door.axis
     point = np.empty(2)
     point[1 - axis] = (opening.door.start + opening.door.end) / 2
-    point[axis] = opening.bounds[axis + 2 * (direction > 0)] + direction * REACH
+    point[axis] = opening.own[axis + 2 * (direction > 0)] + direction * REACH
     return point
 
 
@@ -103,7 +113,7 @@ def _make(opening: Opening, direction: int, hinge: str) -> tuple[Leaf, ...]:
 
 def _leaf(opening: Opening, direction: int, hung: float, free: float) -> Leaf:
     axis = opening.door.axis
-    face = opening.bounds[axis + 2 * (direction > 0)]
+    face = opening.own[axis + 2 * (direction > 0)]
     points = np.empty((3, 2))
     points[:, 1 - axis] = hung, hung, free
     points[:, axis] = face, face + direction * abs(free - hung), face

@@ -8,6 +8,7 @@ The same plan always gives the same bytes.
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,16 @@ import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.exporters.coverage import all_rounded, matched, rounded
-from floorplan_core.model import Door, FloorPlan, LayoutPlane, LayoutSegment, Region, RegionSide, loa_band
+from floorplan_core.model import (
+    Door,
+    FloorPlan,
+    LayoutPlane,
+    LayoutSegment,
+    Region,
+    RegionSide,
+    Wing,
+    loa_band,
+)
 
 Float = NDArray[np.float64]
 Json = dict[str, Any]
@@ -57,6 +67,8 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
     lines = _lines(plan, ends)
     features += [_plane(plane, line) for plane, line in zip(planes, lines, strict=False)]
     features += [_segment(s, line) for s, line in zip(plan.segments, lines[len(planes) :], strict=True)]
+    for number, wing in enumerate(plan.wings, start=1):
+        features += _of_wing(plan, wing, number)
     features.append(_speculated(plan, polygons))
     return {"type": "FeatureCollection", "floorcast": _head(plan), "features": features}
 
@@ -78,6 +90,17 @@ def _head(plan: FloorPlan) -> Json:
         "source": plan.source,
         "frame_support": _metres(plan.frame.support),
         "floor_z_m": _metres(plan.frame.floor_z + float(plan.local_frame.shift[2])),
+        **({"wings": [_wing_head(plan, wing) for wing in plan.wings]} if plan.wings else {}),
+    }
+
+
+def _wing_head(plan: FloorPlan, wing: Wing) -> Json:
+    """How a wing's own axes lie; its planes count their offsets along them."""
+    T = np.eye(4)
+    T[:2, :2] = wing.to_plan(np.eye(2))
+    return {
+        "turn_deg": _metres(math.degrees(wing.turn)),
+        "wing_from_world": _clean(T @ plan.manhattan_from_world, MATRIX_DECIMALS).tolist(),
     }
 
 
@@ -149,6 +172,22 @@ def _plane(plane: LayoutPlane, line: Json) -> Json:
         **_corrected(plane),
     }
     return _feature(plane.id, line, properties)
+
+
+def _of_wing(plan: FloorPlan, wing: Wing, number: int) -> list[Json]:
+    """Planes and segments of a wing: their ``frame`` is its number; those of the plan's frame have none."""
+    if not wing.segments:
+        return []
+    drawn = np.concatenate([s.line() for s in wing.segments])
+    (x0, y0), (x1, y1) = drawn.min(axis=0).tolist(), drawn.max(axis=0).tolist()
+    ends = [_clipped(p, (x0, y0, x1, y1)) for p in wing.planes] + [s.line() for s in wing.segments]
+    lines = _lines(plan, [wing.to_plan(e) for e in ends])
+    count = len(wing.planes)
+    features = [_plane(p, line) for p, line in zip(wing.planes, lines[:count], strict=True)]
+    features += [_segment(s, line) for s, line in zip(wing.segments, lines[count:], strict=True)]
+    for feature in features:
+        feature["properties"]["frame"] = number
+    return features
 
 
 def _corrected(thing: Region | Door | LayoutPlane) -> Json:

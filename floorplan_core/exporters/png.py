@@ -203,11 +203,18 @@ def _draw_sides(draw: Any, view: View, region: Region) -> None:
 def _draw_door(draw: Any, view: View, door: Door) -> None:
     """A yellow box in the wall; openings without a leaf have no outline."""
     half = max(door.thickness, DOOR_DEPTH) / 2
+    ink = INK if door.kind == "door" else None
+    if door.turn:
+        a, b = door.line()
+        across = half * np.array([a[1] - b[1], b[0] - a[0]]) / door.width
+        corners = view.pixels(np.array([a - across, b - across, b + across, a + across])).round()
+        draw.polygon([tuple(p) for p in corners.tolist()], fill=DOOR, outline=ink)
+        return
     low, high = door.line() - half, door.line() + half
     axis = door.axis
     low[:, 1 - axis], high[:, 1 - axis] = door.start, door.end
     (x0, y1), (x1, y0) = view.pixels(np.array([low[0], high[1]])).round().tolist()
-    draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=INK if door.kind == "door" else None, width=1)
+    draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=ink, width=1)
 
 
 def _draw_name(draw: Any, view: View, region: Region) -> None:

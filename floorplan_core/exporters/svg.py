@@ -59,7 +59,7 @@ def svg_text(plan: FloorPlan) -> str:
     _draw_predicted(canvas, sheet, plan, text)
     _draw_walls(canvas, sheet, walls)
     _draw_doors(canvas, sheet, walls, swings)
-    openings = [sheet.geometry(shapely.box(*o.bounds)) for o in walls.openings]
+    openings = [sheet.geometry(o.polygon) for o in walls.openings]
     draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]))
     with canvas.group(id="annotation", fill=palette.INK):
         draw_labels(canvas, labels)
@@ -162,9 +162,7 @@ def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swings: list[tupl
                 f"{door.kind.capitalize()} {door.id}: {door.width:.2f} m, confidence {door.confidence:.2f}"
             )
             with canvas.group(title):
-                canvas.area(
-                    sheet.geometry(shapely.box(*opening.bounds)), fill=palette.DOOR.tint, stroke="none"
-                )
+                canvas.area(sheet.geometry(opening.polygon), fill=palette.DOOR.tint, stroke="none")
                 _draw_faces(canvas, sheet, opening, dashed=not made)
                 for leaf in made:
                     _draw_leaf(canvas, sheet, leaf)
@@ -172,12 +170,7 @@ def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swings: list[tupl
 
 def _draw_faces(canvas: SvgCanvas, sheet: Sheet, opening: Opening, dashed: bool) -> None:
     """The two faces of the wall across an opening: dashed where there is no leaf, a fine threshold else."""
-    x0, y0, x1, y1 = opening.bounds
-    if opening.door.axis == 0:
-        ends = np.array([[x0, y0], [x0, y1], [x1, y0], [x1, y1]])
-    else:
-        ends = np.array([[x0, y0], [x1, y0], [x0, y1], [x1, y1]])
-    page = sheet.to_page(ends).tolist()
+    page = sheet.to_page(opening.faces.reshape(4, 2)).tolist()
     for a, b in (page[:2], page[2:]):
         canvas.line(
             a, b, stroke_dasharray="1.2 0.8" if dashed else None, stroke_width=2 * FINE if dashed else None

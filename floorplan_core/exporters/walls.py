@@ -7,7 +7,7 @@ lies behind a face, the wall is drawn with a nominal thickness. Geometry is shap
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from floorplan_core.model import FREE, Door, FloorPlan, Region, RegionSide
 from floorplan_core.model.floor_plan import regions_mask
+
+Float = NDArray[np.float64]
 
 NOMINAL = 0.15  # metres: thickness of a wall of which only one face is known
 TOUCHING = 0.05  # metres: regions nearer than this leave no room for a wall
@@ -30,7 +32,28 @@ class Opening:
     """A door as it cuts the wall."""
 
     door: Door
-    bounds: tuple[float, float, float, float]  # x0, y0, x1, y1 of the cut, from face to face
+    own: tuple[float, float, float, float]  # x0, y0, x1, y1 of the cut, face to face, axes of the door's wall
+
+    @property
+    def faces(self) -> Float:
+        """(2, 2, 2) ends of the wall's two faces across the opening, manhattan frame."""
+        x0, y0, x1, y1 = self.own
+        across = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]]
+        along = [[x0, y0], [x1, y0], [x0, y1], [x1, y1]]
+        return self.door.in_plan(np.array(across if self.door.axis == 0 else along)).reshape(2, 2, 2)
+
+    @property
+    def polygon(self) -> Any:
+        """The cut, manhattan frame."""
+        if self.door.turn == 0.0:
+            return shapely.box(*self.own)
+        return shapely.transform(shapely.box(*self.own), self.door.in_plan)
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of the box around the cut, manhattan frame."""
+        x0, y0, x1, y1 = shapely.bounds(self.polygon).tolist()
+        return x0, y0, x1, y1
 
 
 @dataclass(frozen=True)
@@ -48,7 +71,7 @@ def poche(plan: FloorPlan) -> Poche:
     thickness = nominal_thickness(plan.doors)
     solid = _solid(plan.regions, thickness, plan.config.doors.max_thickness)
     openings = tuple(_cut(solid, door, thickness, plan.config.doors.max_thickness) for door in plan.doors)
-    solid = solid.difference(shapely.union_all([shapely.box(*o.bounds) for o in openings]))
+    solid = solid.difference(shapely.union_all([o.polygon for o in openings]))
     guessed = _guessed(solid, plan.regions, thickness, plan.config.doors.max_thickness)
     return Poche(solid.difference(guessed), guessed, openings, thickness)
 
@@ -85,6 +108,9 @@ def _party_walls(polygons: Sequence[Any]) -> list[Any]:
 
 def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
     """The part of the wall that a door takes away: as deep as the wall is there."""
+    if door.turn:
+        solid, door = shapely.transform(solid, door.in_own), replace(turned := door, turn=0.0)
+        return replace(_cut(solid, door, thickness, thickest), door=turned)
     reach = _box(door.axis, door.offset - thickest, door.offset + thickest, door.start, door.end)
     line = shapely.LineString(door.line())
     parts = [p for p in shapely.get_parts(solid.intersection(reach)) if p.area > 0]

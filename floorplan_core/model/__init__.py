@@ -9,6 +9,7 @@ from floorplan_core.model.manhattan import ManhattanFrame
 from floorplan_core.model.occupancy import FREE, OCCUPIED, UNOBSERVED, OccupancyGrid
 from floorplan_core.model.reconstruction import LocalFrame, PointChunk, Reconstruction, Trajectory
 from floorplan_core.model.region import Region
+from floorplan_core.model.wing import Wing
 
 __all__ = [
     "FREE",
@@ -33,5 +34,6 @@ __all__ = [
     "Trajectory",
     "WallPoints",
     "WallProfile",
+    "Wing",
     "loa_band",
 ]

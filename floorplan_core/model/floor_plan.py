@@ -16,6 +16,7 @@ from floorplan_core.model.manhattan import ManhattanFrame
 from floorplan_core.model.occupancy import FREE, OccupancyGrid
 from floorplan_core.model.reconstruction import LocalFrame
 from floorplan_core.model.region import Region, RegionSide
+from floorplan_core.model.wing import Wing
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config
@@ -58,6 +59,7 @@ class FloorPlan:
     raster: MapRaster | None = None  # of the grid map that it was made from
     corrected: tuple[tuple[str, str], ...] = ()  # (kind, id) of what a person changed
     machine: dict[str, str] = field(default_factory=dict)  # by id: what the machine had said of it
+    wings: tuple[Wing, ...] = ()  # parts of the building that stand at another angle
 
     def to_world(self, xy: Float) -> Float:
         """(N, 2) manhattan plan coordinates to (N, 2) coordinates of the input's world frame, metres."""

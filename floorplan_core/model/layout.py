@@ -15,6 +15,14 @@ from numpy.typing import NDArray
 Float = NDArray[np.float64]
 
 
+def turned(xy: Float, angle: float) -> Float:
+    """(N, 2) positions turned counter-clockwise by ``angle`` radians; the same ones where that is nothing."""
+    if angle == 0.0:
+        return xy
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray(np.asarray(xy, dtype=np.float64) @ np.array([[c, s], [-s, c]]))
+
+
 class Facing(IntEnum):
     """The way a surface looks: EAST +x, WEST -x, NORTH +y, SOUTH -y."""
 
@@ -117,6 +125,7 @@ class Door:
     evidence: tuple[str, ...] = ()  # words
     connects: tuple[str, ...] = ()  # ids of the one or two regions that it joins
     by_hand: str = ""  # what a person said of it: "accepted", "resized" or "added"; "" nothing
+    turn: float = 0.0  # radians from the plan's axes to those of the wing that all of this refers to
 
     @property
     def width(self) -> float:
@@ -126,4 +135,12 @@ class Door:
     def line(self) -> Float:
         """(2, 2) end points in the plan, manhattan frame."""
         a, b = (self.offset, self.start), (self.offset, self.end)
-        return np.array([a, b]) if self.axis == 0 else np.array([a[::-1], b[::-1]])
+        return self.in_plan(np.array([a, b]) if self.axis == 0 else np.array([a[::-1], b[::-1]]))
+
+    def in_plan(self, xy: Float) -> Float:
+        """(N, 2) positions in the axes of the door's wall to the manhattan frame of the plan."""
+        return turned(xy, self.turn)
+
+    def in_own(self, xy: Float) -> Float:
+        """(N, 2) positions in the manhattan frame to the axes of the door's wall; undoes :meth:`in_plan`."""
+        return turned(xy, -self.turn)

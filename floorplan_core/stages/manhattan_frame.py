@@ -57,7 +57,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     if config.yaw_deg is not None:
         yaw = _wrap(math.radians(config.yaw_deg))
     else:
-        coarse = _strongest_direction(angle, weight)
+        coarse = strongest_direction(angle, weight)
         yaw = _sharpest_yaw(surfels, normals, vertical, level, coarse, config)
     support = float(
         weight[np.abs(_wrap(angle - yaw)) < math.radians(config.tolerance_deg)].sum() / weight.sum()
@@ -69,10 +69,11 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
             f"(frame.min_support is {config.min_support:.0%}); if the building has walls at other angles, "
             "lower it."
         )
-    rotation = _rotation_about_z(-yaw) @ level
+    rotation = turned_by(-yaw) @ level
     floor, ceiling = floor_and_ceiling(surfels, normals, rotation)
     tilt = math.acos(float(np.clip(up[2], -1, 1)))
-    return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
+    askew = _other(angle - yaw, weight, config)[1]
+    return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling, askew)
 
 
 def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) -> ManhattanFrame:
@@ -89,7 +90,7 @@ def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) 
         c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
         turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     else:
-        turned = _rotation_about_z(heading - yaw)
+        turned = turned_by(heading - yaw)
     rotation = turned @ rotation
     tilt = math.acos(float(np.clip(rotation[2, 2], -1, 1)))
     return replace(frame, rotation=rotation, yaw=yaw, tilt=tilt)
@@ -104,12 +105,24 @@ def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig
     n = normals.normal @ frame.rotation.T
     vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
     angle, weight = np.arctan2(n[vertical, 1], n[vertical, 0]), normals.weight[vertical]
+    return _other(angle, weight, config)
+
+
+def _other(angle: Float, weight: Float, config: FrameConfig) -> tuple[float, float]:
+    """The same from the angles of walls to an axis of the frame."""
     askew = np.abs(_wrap(angle)) > _ASKEW
     if not weight[askew].sum() > 0:
         return 0.0, 0.0
-    peak = _strongest_direction(angle[askew], weight[askew])
+    peak = strongest_direction(angle[askew], weight[askew])
     near = askew & (np.abs(_wrap(angle - peak)) < math.radians(config.tolerance_deg))
     return peak, float(weight[near].sum() / weight.sum())
+
+
+def refined_direction(surfels: Surfels, coarse: float, config: FrameConfig) -> float:
+    """The yaw, radians, near ``coarse`` under which walls of ``surfels`` in a level frame are sharpest."""
+    normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    vertical = np.abs(normals.normal[:, 2]) < math.sin(math.radians(15))
+    return _sharpest_yaw(surfels, normals, vertical, np.eye(3), coarse, config)
 
 
 def _no_walls(area: float, voxels: int, height: float) -> str:
@@ -162,7 +175,8 @@ def _square_to_floor(normals: CellNormals, up: Float) -> Float:
     return np.asarray(up)
 
 
-def _rotation_about_z(angle: float) -> Float:
+def turned_by(angle: float) -> Float:
+    """(3, 3) rotation about z by ``angle`` radians."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
@@ -173,7 +187,7 @@ def _wrap(angle: Angle) -> Angle:
     return -((-angle + quarter / 2) % quarter - quarter / 2)
 
 
-def _strongest_direction(angle: Float, weight: Float) -> float:
+def strongest_direction(angle: Float, weight: Float) -> float:
     """The peak of the directions modulo 90 degrees, smoothed over 2 degrees, then their mean within 4."""
     degrees = np.rad2deg(_wrap(angle))
     hist, _ = np.histogram(degrees, bins=180, range=(-45, 45), weights=weight)

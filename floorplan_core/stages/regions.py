@@ -172,7 +172,8 @@ def _behind(door: Door, sign: int, regions: Sequence[Region], tree: shapely.STRt
     middle = (door.start + door.end) / 2
     for reach in _PROBES:
         u = door.offset + sign * (door.thickness / 2 + reach)
-        hit = tree.query(shapely.Point((u, middle) if door.axis == 0 else (middle, u)), predicate="within")
+        at = door.in_plan(np.array([(u, middle) if door.axis == 0 else (middle, u)]))
+        hit = tree.query(shapely.Point(at[0]), predicate="within")
         if len(hit):
             return regions[int(min(hit))].id
     return ""

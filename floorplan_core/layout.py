@@ -1,0 +1,149 @@
+"""From the evidence to regions: the stages of the paper in their order, for one Manhattan frame.
+
+A building has one frame, or one for each wing that stands at an angle; each is laid out by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import Config, DoorsConfig
+from floorplan_core.model import (
+    CandidateSet,
+    Door,
+    LayoutPlane,
+    LayoutSegment,
+    OccupancyGrid,
+    RectangleCover,
+    Region,
+)
+from floorplan_core.model.corrections import Correction
+from floorplan_core.model.evidence import Evidence
+from floorplan_core.observer import Observer
+from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
+from floorplan_core.stages.candidates import pair_planes
+from floorplan_core.stages.corrections import Remarks, Said
+from floorplan_core.stages.corrections_doors import correct_doors, follow_planes
+from floorplan_core.stages.corrections_regions import Surroundings, correct_shapes
+from floorplan_core.stages.corrections_walls import correct_walls, still_walls
+from floorplan_core.stages.doors import find_doors
+from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
+from floorplan_core.stages.layout_segments import find_segments
+from floorplan_core.stages.narrowings import find_openings
+from floorplan_core.stages.occupancy import slice_map
+from floorplan_core.stages.region_heights import measure_heights
+from floorplan_core.stages.regions import build_regions
+from floorplan_core.stages.set_cover import cover as cover_free_space
+from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.steps import StageRunner
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What the stages made in one frame; doors are not connected to regions yet."""
+
+    segments: tuple[LayoutSegment, ...]
+    planes: tuple[LayoutPlane, ...]
+    doors: tuple[Door, ...]
+    grid: OccupancyGrid
+    candidates: CandidateSet
+    cover: RectangleCover
+    regions: tuple[Region, ...]
+    remarks: Remarks
+
+
+def lay_out(
+    evidence: Evidence,
+    config: Config,
+    stage: StageRunner,
+    observer: Observer,
+    say: Said,
+    cells: NDArray[np.bool_] | None = None,
+) -> Layout:
+    """All stages from layout segments to regions.
+
+    :param say: what a person said against the machine, in this frame.
+    :param cells: (ny, nx) where the free space is that regions are to explain; None: everywhere.
+    """
+    segments, rows = stage(
+        "segments", lambda: find_segments(evidence, config.segments), evidence, config.segments
+    )
+    parts, beams = config.planes, (config.doors.max_beamless, config.doors.lintel_depth)
+    segments, planes = stage(
+        "planes",
+        lambda: find_planes(segments, rows, evidence, parts, config.doors),
+        *(segments, rows, evidence, parts, config.doors),
+    )
+    planes = stage("planes", lambda: close_corners(remove_beams(planes, *beams)), planes, beams)
+    machine = stage("planes", lambda: mark_recesses(planes, parts), planes, parts)
+    planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
+
+    seen = still_walls(machine, planes)
+    doors = stage("doors", lambda: find_openings(seen, evidence, config.doors), seen, evidence, config.doors)
+    doors, planes, remarks = stage.correct(
+        "doors",
+        lambda: _corrected_doors(doors, planes, machine, say.doors, evidence, config.doors),
+        *(doors, planes, machine, say.doors, evidence, config.doors),
+    )
+    said += remarks
+    grid = stage(
+        "occupancy",
+        lambda: _within(slice_map(evidence, planes, doors, config.occupancy), cells),
+        *(evidence, planes, doors, config.occupancy),
+    )
+    walls, paired = blockers(planes, doors), pairable(planes, parts)
+    layout = (planes, doors, grid, parts, config.candidates)
+    candidates = stage(
+        "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, observer), *layout
+    )
+    cover = stage(
+        "cover",
+        lambda: cover_free_space(candidates, grid, config.cover, observer),
+        *(candidates, grid, config.cover),
+    )
+    planes, cover = stage(
+        "cover",
+        lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
+        *(cover, config.cover, *layout),
+    )
+    found = (planes, segments, doors, grid)
+    regions = stage(
+        "regions",
+        lambda: build_regions(cover, *found, config.regions),
+        *(cover, *found, config.regions),
+    )
+    regions, planes, remarks = stage.correct(
+        "shapes",
+        lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
+        *(regions, say.shapes, *found, config.regions),
+    )
+    regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
+    return Layout(segments, planes, doors, grid, candidates, cover, regions, said + remarks)
+
+
+def _within(grid: OccupancyGrid, cells: NDArray[np.bool_] | None) -> OccupancyGrid:
+    """The grid with a universe that lies in ``cells``."""
+    return grid if cells is None else replace(grid, universe=grid.universe & cells)
+
+
+def _corrected_doors(
+    doors: tuple[Door, ...],
+    planes: tuple[LayoutPlane, ...],
+    machine: tuple[LayoutPlane, ...],
+    corrections: tuple[Correction, ...],
+    evidence: Evidence,
+    sure: DoorsConfig,
+) -> tuple[tuple[Door, ...], tuple[LayoutPlane, ...], Remarks]:
+    """The doors in the corrected planes, with what a person said of them."""
+
+    def followed(found: tuple[Door, ...]) -> tuple[Door, ...]:
+        return follow_planes(found, machine, planes, sure.max_thickness)
+
+    def faint() -> tuple[Door, ...]:
+        unsure = sure.model_copy(update={"min_confidence": 0.0})
+        return followed(find_doors(still_walls(machine, planes), evidence, unsure))
+
+    return correct_doors(followed(doors), planes, corrections, sure, faint)

@@ -1,0 +1,83 @@
+"""The layouts of a building and of its wings as one: every part by itself in its own frame, then joined."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from floorplan_core.config import Config
+from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.raster import polygon_mask
+from floorplan_core.layout import Layout, lay_out
+from floorplan_core.model import OccupancyGrid, Region, Wing
+from floorplan_core.model.floor_plan import regions_mask
+from floorplan_core.observer import Observer
+from floorplan_core.stages.corrections import Remarks, Said
+from floorplan_core.stages.wing_joins import PartLayout, join_doors, join_grids, join_regions, named
+from floorplan_core.stages.wings import Part, same_floor
+from floorplan_core.steps import StageRunner
+
+
+def add_wings(
+    main: Layout, parts: tuple[Part, ...], config: Config, observer: Observer
+) -> tuple[Layout, tuple[Wing, ...]]:
+    """``main``, which is the layout of the first part, with the regions and doors of the others.
+
+    A wing that gives no plan by itself is left out, with a remark.
+    """
+    whole, remarks = parts[0].evidence, main.remarks
+    found, wings, cells = [_part(main, 0.0)], [], []
+    for part in parts[1:]:
+        quiet = Observer(observer.cancel)  # what a stage shows is in the frame of the building
+        degrees = math.degrees(part.turn)
+        area = float(np.count_nonzero(part.cells)) * part.evidence.cell**2
+        try:
+            made = lay_out(part.evidence, config, StageRunner(quiet), quiet, Said(), part.cells)
+        except NoPlanError as error:
+            remarks += Remarks(
+                warnings=(f"A wing of {area:.0f} m2 at {degrees:.1f} degrees gives no plan: {error}",)
+            )
+            continue
+        found.append(_part(made, part.turn))
+        wings.append(_wing(made, part.turn, len(wings) + 1))
+        cells.append(same_floor(part.cells, part.evidence, whole, -part.turn))
+        remarks += Remarks(
+            warnings=(
+                f"A wing of {area:.0f} m2 stands at {degrees:.1f} degrees to the rest: it is planned in a "
+                "frame of its own.",
+            )
+        )
+    regions, grid = join_regions(found, config.regions.min_area), join_grids(main.grid, found[1:], cells)
+    left = main.cover.uncovered & ~regions_mask(regions, grid)  # a region of a wing may have it
+    joined = replace(
+        main,
+        regions=tuple(_counted(r, grid) for r in regions),
+        doors=join_doors(found),
+        grid=grid,
+        cover=replace(main.cover, uncovered=left),
+        remarks=remarks,
+    )
+    return joined, tuple(wings)
+
+
+def _counted(region: Region, grid: OccupancyGrid) -> Region:
+    """The region with the cells that it has in the grid of the plan."""
+    inside = polygon_mask(region.polygon, grid.origin, grid.cell, grid.states.shape)
+    free, total = int(np.count_nonzero(grid.universe & inside)), int(np.count_nonzero(inside))
+    return replace(region, free_cells=free, total_cells=total)
+
+
+def _part(made: Layout, turn: float) -> PartLayout:
+    return PartLayout(turn, made.planes, made.doors, made.regions, made.grid)
+
+
+def _wing(made: Layout, turn: float, number: int) -> Wing:
+    """Planes and segments with ids that say of which wing they are."""
+    planes = tuple(
+        replace(p, id=named(p.id, number), segments=tuple(named(s, number) for s in p.segments))
+        for p in made.planes
+    )
+    segments = tuple(replace(s, id=named(s.id, number), plane=named(s.plane, number)) for s in made.segments)
+    return Wing(turn, planes, segments)

@@ -1,0 +1,218 @@
+"""Wings at another angle: which part of a survey follows a second Manhattan frame (beyond the paper).
+
+In: the evidence in the frame of the building. Out: :class:`WingFloor`, or None for nearly every survey. Free
+space is cut into rooms at its narrow places; the walls around each vote, by the direction that they have.
+Rooms in which the second direction wins are the wing; one room that has walls of both (a corridor with a
+bend) is cut where they are equally near. Cost: nothing where the frame explains nearly all walls, else one
+pass over the surfels and the cells.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import FrameConfig
+from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
+from floorplan_core.geometry.columns import height_mask
+from floorplan_core.geometry.masks import distance_to_gap, label_patches
+from floorplan_core.geometry.surfel_map import Surfels
+from floorplan_core.model import ManhattanFrame
+from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.manhattan_frame import refined_direction, strongest_direction, turned_by
+
+Float = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+LEAST_SHARE = 0.08  # of the walls, with the second direction: clutter has less
+_LEAST_WALLS = 8.0  # m2 of wall with the second direction, in all and in each wing
+_LEAST_AREA = 6.0  # m2 of floor of a wing
+_ASKEW = math.radians(10)  # from the frame: walls at less are noise of those that fit
+_NEAR = math.radians(8)  # of a direction: the wall follows it
+_STEEP = math.sin(math.radians(15))  # |z| of the normal of a wall
+_BAND = (1.0, 3.0)  # m above the floor, where walls are looked at: little furniture
+_FREE_BAND = (0.5, 1.9)  # m above the floor, where space must be free at some height
+_HALF_DOOR = 0.65  # m: space that is nowhere wider than twice this is the opening between two rooms
+_VOTE = (0.15, 0.3, 0.45)  # m in front of a wall, where the room is that it votes for
+_MIXED = 0.35  # share of a room's walls that is too much for a mistake
+_MIXED_WALLS = 3.0  # m2 of them
+_WALL_REACH = 0.6  # m around the floor of a part, within which its walls stand
+_DOOR_REACH = 1.2  # m around it, within which free space shows that a door leads out of it
+
+
+@dataclass(frozen=True)
+class WingFloor:
+    """The part of a survey that follows another direction."""
+
+    turn: float  # radians from the frame's axes to those of the wing, counter-clockwise
+    cells: Mask  # (ny, nx) of the evidence: the floor of the wing
+
+
+@dataclass(frozen=True)
+class Part:
+    """The evidence of one part of a survey, in its own frame."""
+
+    turn: float  # radians from the plan's axes to those of the part
+    evidence: Evidence
+    cells: Mask  # (ny, nx) where its floor is
+
+
+def find_wing(evidence: Evidence, config: FrameConfig) -> WingFloor | None:
+    """The wing, if there is one; ``evidence`` is in the frame of the building."""
+    if evidence.frame.askew < LEAST_SHARE:
+        return None
+    near = (evidence.xyz[:, 2] > _BAND[0]) & (evidence.xyz[:, 2] < _BAND[1])
+    surfels = _plain_surfels(evidence, near)
+    walls = fit_cell_normals(surfels.centroid, config.cell, config.planarity, most=len(surfels))
+    vertical = np.abs(walls.normal[:, 2]) < _STEEP
+    angle, weight = np.arctan2(walls.normal[:, 1], walls.normal[:, 0]), walls.weight
+    askew = vertical & (np.abs(_quarter(angle)) > _ASKEW)
+    least = _LEAST_WALLS / evidence.surfel**2
+    if weight[askew].sum() < least:
+        return None
+    turn = strongest_direction(angle[askew], weight[askew])
+    follows = vertical & (np.abs(_quarter(angle - turn)) < _NEAR) & askew
+    if weight[follows].sum() < max(least, LEAST_SHARE * weight[vertical].sum()):
+        return None
+    straight = vertical & (np.abs(_quarter(angle)) < _NEAR)
+    cells = _floor_of(evidence, walls, straight, follows)
+    if not cells.any():
+        return None
+    turn = refined_direction(_plain_surfels(evidence, near & _over(cells, evidence)), turn, config)
+    return WingFloor(turn, cells)
+
+
+def part_of(evidence: Evidence, cells: Mask, turn: float) -> Part:
+    """The evidence of the part whose floor is ``cells``: its walls, and what its doors show."""
+    walls, doors = _grown(cells, _WALL_REACH / evidence.cell), _grown(cells, _DOOR_REACH / evidence.cell)
+    rows = np.flatnonzero(_over(walls, evidence))
+    none = np.uint64(0)
+    only = replace(
+        evidence,
+        xyz=evidence.xyz[rows],
+        count=evidence.count[rows],
+        spread=evidence.spread[rows],
+        view=evidence.view[rows],
+        hits=np.where(np.repeat(np.repeat(walls, 2, axis=0), 2, axis=1), evidence.hits, none),
+        free=np.where(doors, evidence.free, none),
+        occupied=np.where(walls, evidence.occupied, none),
+    )
+    return Part(turn, only, cells)
+
+
+def same_floor(cells: Mask, evidence: Evidence, other: Evidence, turn: float) -> Mask:
+    """``cells`` of one evidence as cells of another, whose axes are turned by ``turn``."""
+    ny, nx = other.shape
+    y, x = np.mgrid[0:ny, 0:nx] + 0.5
+    centres = np.column_stack([x.ravel(), y.ravel()]) * other.cell + other.origin
+    return _lookup(cells, centres @ turned_by(-turn)[:2, :2], evidence).reshape(ny, nx)
+
+
+def wing_frame(frame: ManhattanFrame, turn: float) -> ManhattanFrame:
+    """The frame of a wing."""
+    return replace(frame, rotation=turned_by(-turn) @ frame.rotation, yaw=float(_quarter(frame.yaw + turn)))
+
+
+def _plain_surfels(evidence: Evidence, rows: Mask) -> Surfels:
+    xyz = evidence.xyz[rows]
+    zeros = np.zeros((len(xyz), 3))
+    return Surfels(xyz, evidence.count[rows], zeros, zeros[:, :2], evidence.surfel)
+
+
+def _floor_of(evidence: Evidence, walls: CellNormals, straight: Mask, follows: Mask) -> Mask:
+    """(ny, nx) cells of the rooms whose walls follow the second direction."""
+    free = (evidence.free & height_mask(*_FREE_BAND)) != 0
+    rooms = _rooms(free, evidence.cell)
+    count = int(rooms.max()) + 1
+    votes = [_votes(rooms, walls, mask, evidence, count) for mask in (straight, follows)]
+    for_wing = votes[1] > votes[0]
+    for_wing[0] = False
+    cells = for_wing[rooms]
+    enough = _MIXED_WALLS / evidence.surfel**2
+    mixed = np.minimum(*votes) > np.maximum(_MIXED * (votes[0] + votes[1]), enough)
+    mixed[0] = False
+    if mixed.any():
+        nearer = _distance(walls, follows, evidence) < _distance(walls, straight, evidence)
+        cells = np.where(mixed[rooms], nearer & free, cells)
+    seen = np.zeros(evidence.shape)
+    np.add.at(seen, _cell_index(walls.centre[follows], evidence), walls.weight[follows])
+    label, number = label_patches(_grown(cells, 2))
+    area = np.bincount(label[cells], minlength=number + 1) * evidence.cell**2
+    around = _grown_labels(label, round(_WALL_REACH / evidence.cell))
+    wall = np.bincount(around.ravel(), weights=seen.ravel(), minlength=number + 1) * evidence.surfel**2
+    kept = (area >= _LEAST_AREA) & (wall >= _LEAST_WALLS)
+    kept[0] = False
+    return np.asarray(cells & kept[label])
+
+
+def _rooms(free: Mask, cell: float) -> NDArray[np.int32]:
+    """(ny, nx) number of the room of each free cell, from 1; 0 elsewhere."""
+    label, _ = label_patches(distance_to_gap(free) * cell > _HALF_DOOR)
+    while True:
+        wider = np.where(free, _grown_labels(label, 1), 0)
+        if np.array_equal(wider, label):
+            return np.asarray(label, dtype=np.int32)
+        label = wider
+
+
+def _grown_labels(label: NDArray[np.int32], steps: int) -> NDArray[np.int32]:
+    """Labels, spread over cells that have none; the higher number wins."""
+    from scipy.ndimage import grey_dilation
+
+    for _ in range(steps):
+        wider = grey_dilation(label, size=(3, 3))
+        label = np.where(label == 0, wider, label)
+    return label
+
+
+def _votes(rooms: NDArray[np.int32], walls: CellNormals, mask: Mask, evidence: Evidence, count: int) -> Float:
+    """(count,) surfels of the walls ``mask`` in front of which each room lies."""
+    total = np.zeros(count)
+    for sign in (-1, 1):
+        voted = np.zeros(int(mask.sum()), dtype=np.int32)
+        for reach in _VOTE:
+            at = walls.centre[mask] + sign * reach * walls.normal[mask]
+            voted = np.where(voted == 0, rooms[_cell_index(at, evidence)], voted)
+        total += np.bincount(voted, weights=walls.weight[mask], minlength=count)
+    total[0] = 0.0
+    return total
+
+
+def _distance(walls: CellNormals, mask: Mask, evidence: Evidence) -> Float:
+    """(ny, nx) cells to the nearest of the walls ``mask``."""
+    away = np.ones(evidence.shape, dtype=bool)
+    away[_cell_index(walls.centre[mask], evidence)] = False
+    return distance_to_gap(away)
+
+
+def _grown(cells: Mask, steps: float) -> Mask:
+    """``cells`` and all that are at most so many cells from them."""
+    return np.asarray(distance_to_gap(~cells) <= steps)
+
+
+def _over(cells: Mask, evidence: Evidence) -> Mask:
+    """(N,) which surfels lie over ``cells``."""
+    return _lookup(cells, evidence.xyz[:, :2], evidence)
+
+
+def _lookup(cells: Mask, xy: Float, evidence: Evidence) -> Mask:
+    """(N,) whether points lie in ``cells``; False beyond the grid."""
+    index = np.floor((xy - evidence.origin) / evidence.cell).astype(np.int64)
+    inside = ((index >= 0) & (index < np.array(cells.shape)[::-1])).all(axis=1)
+    index = np.where(inside[:, None], index, 0)
+    return np.asarray(cells[index[:, 1], index[:, 0]] & inside)
+
+
+def _cell_index(xy: Float, evidence: Evidence) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Row and column of points; those beyond the grid at its edge."""
+    index = np.floor((xy[:, :2] - evidence.origin) / evidence.cell).astype(np.int64)
+    ny, nx = evidence.shape
+    return np.clip(index[:, 1], 0, ny - 1), np.clip(index[:, 0], 0, nx - 1)
+
+
+def _quarter(angle: Float | float) -> Float:
+    """Angles modulo 90 degrees, in [-45, 45)."""
+    return np.asarray((np.asarray(angle) + math.pi / 4) % (math.pi / 2) - math.pi / 4)
