@@ -1,8 +1,8 @@
 """The order of the stages. Online is the primitive: batch is one call of ``integrate_chunk`` for each chunk.
 
 integrate   points into surfels, rays into the voxel map       O(points of the scan)
-plan        frame and storey, voxel columns, segments, planes, doors, universe, candidates, cover, regions,
-            labels; what a person said against the machine is applied after the stage that it concerns
+plan        frame and storey, voxel columns; segments, planes, doors, universe, candidates, cover, regions
+            (:mod:`floorplan_core.layout`), for the building and for each wing at another angle; labels
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
-from floorplan_core.errors import NoPlanError, UsageError
+from floorplan_core.errors import InputError, NoPlanError, UsageError
 from floorplan_core.layout import lay_out
 from floorplan_core.layout_wings import add_wings
 from floorplan_core.model import (
@@ -124,6 +124,8 @@ class FloorPlanner:
         frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
         evidence = stage("occupancy", lambda: self._evidence_of(storey, frame), frame, config.voxels)
         parts = stage("occupancy", lambda: self._parts_of(storey, frame, evidence), evidence, config.frame)
+        if not all(isinstance(part, Part) for part in parts):
+            raise InputError("These stages were kept by another version; run again with --save-stages.")
         say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
         if parts:
             main = lay_out(parts[0].evidence, config, stage, self.observer, say, parts[0].cells)

@@ -1600,6 +1600,10 @@
    <translation>Plan</translation>
   </message>
   <message>
+   <source>Plan a wing that stands at another angle in a frame of its own.</source>
+   <translation>Einen Flügel, der in einem anderen Winkel steht, in einem eigenen Achsensystem planen.</translation>
+  </message>
+  <message>
    <source>Plan again</source>
    <translation>Neu planen</translation>
   </message>
@@ -2365,7 +2369,7 @@
   </message>
   <message>
    <source>The file's axes are left-handed, its plan would be a mirror image; auto: where its poses say so.</source>
-   <translation>Die Achsen der Datei sind linkshändig, ihr Plan wäre ein Spiegelbild; auto: wo ihre Posen es sagen.</translation>
+   <translation>Die Achsen der Datei sind linkshändig, ihr Plan wäre spiegelverkehrt; auto: wo ihre Posen es sagen.</translation>
   </message>
   <message>
    <source>The file's up axis.</source>
@@ -2882,6 +2886,10 @@
   <message>
    <source>Window</source>
    <translation>Fenster</translation>
+  </message>
+  <message>
+   <source>Wings</source>
+   <translation>Flügel</translation>
   </message>
   <message>
    <source>Worst side</source>
