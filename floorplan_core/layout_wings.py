@@ -28,7 +28,8 @@ def add_wings(
     A wing that gives no plan by itself is left out, with a remark.
     """
     whole, remarks = parts[0].evidence, main.remarks
-    found, wings, cells = [_part(main, 0.0)], [], []
+    found, cells = [_part(main, 0.0)], []
+    wings: list[Wing] = []
     for part in parts[1:]:
         quiet = Observer(observer.cancel)  # what a stage shows is in the frame of the building
         degrees = math.degrees(part.turn)

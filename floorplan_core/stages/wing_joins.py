@@ -198,7 +198,8 @@ def _is_floor(piece: Any, part: PartLayout) -> bool:
     if piece.area < _CRUMB:
         return False
     window, inside = _window(piece.buffer(part.grid.cell), part)
-    return int(np.count_nonzero(inside & (part.grid.states[window] == FREE))) > _LEAST_FLOOR * inside.sum()
+    free = int(np.count_nonzero(inside & (part.grid.states[window] == FREE)))
+    return free > _LEAST_FLOOR * int(np.count_nonzero(inside))
 
 
 def _cells(polygon: Any, part: PartLayout) -> tuple[int, int]:
@@ -234,7 +235,8 @@ def _side(a: Float, b: Float, hole: bool, before: Sequence[RegionSide], walls: A
         p, q = np.array(side.start) - a, np.array(side.end) - a
         if max(abs(p @ across), abs(q @ across)) > _ON:
             continue
-        common = min(length, max(p @ along, q @ along)) - max(0.0, min(p @ along, q @ along))
+        ends_along = sorted((float(p @ along), float(q @ along)))
+        common = min(length, ends_along[1]) - max(0.0, ends_along[0])
         if common > 0:
             seen += common * side.observed
             best = side if best is None or side.length > best.length else best

@@ -201,8 +201,9 @@ def _over(cells: Mask, evidence: Evidence) -> Mask:
 def _lookup(cells: Mask, xy: Float, evidence: Evidence) -> Mask:
     """(N,) whether points lie in ``cells``; False beyond the grid."""
     index = np.floor((xy - evidence.origin) / evidence.cell).astype(np.int64)
-    inside = ((index >= 0) & (index < np.array(cells.shape)[::-1])).all(axis=1)
-    index = np.where(inside[:, None], index, 0)
+    ny, nx = cells.shape
+    inside = (index >= 0).all(axis=1) & (index[:, 0] < nx) & (index[:, 1] < ny)
+    index[~inside] = 0
     return np.asarray(cells[index[:, 1], index[:, 0]] & inside)
 
 
