@@ -63,10 +63,12 @@ class WallExtender:
     def _cut(self, polygon: Any, axis: int, middle: float, start: float, end: float) -> Any:
         """The box along the wall's line to the far sides of the polygon; None where something stops it."""
         x0, y0, x1, y1 = polygon.bounds
-        low, high = (x0, x1) if axis == 0 else (y0, y1)
+        (low, high), (first, last) = ((x0, x1), (y0, y1)) if axis == 0 else ((y0, y1), (x0, x1))
         if not low + _INSIDE < middle < high - _INSIDE:
             return None
-        line = shapely.LineString(_across(axis, middle, *((y0, y1) if axis == 0 else (x0, x1))))
+        if not (first < end + _INSIDE and last > start - _INSIDE):
+            return None  # a wall elsewhere in the building
+        line = shapely.LineString(_across(axis, middle, first, last))
         inside = [sorted(_along(axis, piece)) for piece in shapely.get_parts(line.intersection(polygon))]
         inside = [(a, b) for a, b in inside if b - a > _EXACT]
         mine = [(a, b) for a, b in inside if a < end + _INSIDE and b > start - _INSIDE]
