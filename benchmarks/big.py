@@ -174,7 +174,7 @@ def read_plainly(path: Path) -> None:
 
 def plan(path: Path) -> None:
     """``floorcast plan`` without pictures into a folder beside the file; the kernels are loaded before."""
-    from floorplan_core.cli.main import main as floorcast
+    from floorplan_core.cli.main import run as floorcast
 
     given = trajectory_of(path)
     arguments = [] if given is None else ["--trajectory", str(given)]
