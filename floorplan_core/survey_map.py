@@ -109,7 +109,7 @@ class SurveyMap:
         waiting, self._waiting = self._waiting, []
         if waiting:
             self._first = waiting if _count(waiting) < SAMPLE and not self.rays.blocks else []
-            first = np.concatenate([w[0] for w in waiting])[:SAMPLE]
+            first = np.concatenate([w[0][:SAMPLE] for w in waiting])[:SAMPLE]
             self.planar = is_planar(first) and all(len(w[2]) for w in waiting)
             self._lattice = 0.0 if self.planar else lattice_spacing(first)
             if (

@@ -11,11 +11,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.voxel_keys import EMPTY, pack, spread
 
 Float = NDArray[np.float64]
 
 _MIN_SURFELS = 8  # fewer do not fix a plane in a cell
+_WORTH = 2_000  # cells of which a second thread takes half
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,12 @@ def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int =
     cov = np.empty((len(moments), 3, 3))
     for k, (i, j) in enumerate(((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))):
         cov[:, i, j] = cov[:, j, i] = moments[:, 4 + k] / count - mean[:, i] * mean[:, j]
-    values, vectors = np.linalg.eigh(cov)
+    values, vectors = np.empty((len(cov), 3)), np.empty((len(cov), 3, 3))
+
+    def part(start: int, stop: int) -> None:
+        values[start:stop], vectors[start:stop] = np.linalg.eigh(cov[start:stop])
+
+    in_halves(part, len(cov), worth=_WORTH)
     thin = np.sqrt(np.maximum(values[:, 0], 0)) < planarity * 2 * np.sqrt(np.maximum(values[:, 1], 1e-12))
     good = (count >= _MIN_SURFELS) & thin
     new_id = np.where(good, np.cumsum(good) - 1, -1).astype(np.int32)

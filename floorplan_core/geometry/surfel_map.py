@@ -24,7 +24,9 @@ VIEW_STEPS = 64  # resolution of the unit view direction
 COLUMNS = 9  # count, sums of x, y, z, sums of xx, xy, yy, sums of the view's x, y
 MOST_POINTS = 200_000  # of a voxel: its sums of squares stay within 32 bits, its mean is long settled
 BLOCK = 5  # voxels on a side of the blocks of a sample
+_FAR_BLOCK = BIAS // BLOCK + 1  # blocks from the origin: no index is farther
 _START = 1 << 16
+_WORTH = 10_000  # surfels of which a second thread takes half
 _SPARSE = (
     4  # slots of the hash for each row: neighbours fill whole stretches of it, so half empty is too full
 )
@@ -114,12 +116,29 @@ class SurfelMap:
 
         With ``every`` > 1 only one in so many blocks of voxels, whole and chosen by a hash of its place.
         """
-        keys, sums = self._keys[: self._used], self._sums[: self._used]
-        if every > 1:
-            rows = np.flatnonzero(_in_chosen_block(keys, every))
-            keys, sums = keys[rows], sums[rows]
-        centroid, variance, view = _unpack(keys, sums, self.size)
-        return Surfels(centroid, sums[:, 0].copy(), variance, view, self.size, every)
+        rows = self._chosen(every) if every > 1 else np.arange(self._used)
+        n = len(rows)
+        centroid, count, variance, view = (
+            np.empty((n, 3)),
+            np.empty(n, dtype=np.int32),
+            np.empty((n, 3)),
+            np.empty((n, 2)),
+        )
+
+        def part(start: int, stop: int) -> None:
+            out = (centroid, count, variance, view)
+            _unpack(self._keys, self._sums, rows, self.size, out, start, stop)
+
+        in_halves(part, n, worth=_WORTH)
+        return Surfels(centroid, count, variance, view, self.size, every)
+
+    def _chosen(self, every: int) -> NDArray[np.int64]:
+        """Rows of the surfels in one of so many blocks."""
+        chosen = np.empty(self._used, dtype=np.bool_)
+        in_halves(
+            lambda start, stop: _in_chosen_block(self._keys, every, chosen, start, stop), self._used, _WORTH
+        )
+        return np.flatnonzero(chosen)
 
     def turned(self, rotation: Float, lift: float) -> tuple[Float, NDArray[np.int32], Float, Float]:
         """All surfels in another frame, with ``lift`` (metres) added to their height.
@@ -132,7 +151,7 @@ class SurfelMap:
         def part(start: int, stop: int) -> None:
             _turn(self._keys, self._sums, self.size, r, lift, xyz, variance, view, start, stop)
 
-        in_halves(part, n, worth=10_000)
+        in_halves(part, n, worth=_WORTH)
         return xyz, self._sums[:n, 0].copy(), variance, view
 
 
@@ -237,31 +256,34 @@ def _fill(keys, used, table):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _unpack(keys, sums, size):  # type: ignore[no-untyped-def]
-    n, low, step = len(keys), (1 << 21) - 1, size / STEPS
-    centroid, variance, view = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 2))
-    for i in range(n):
+def _unpack(keys, sums, rows, size, out, start, stop):  # type: ignore[no-untyped-def]
+    low, step = (1 << 21) - 1, size / STEPS
+    centroid, count, variance, view = out
+    for row in range(start, stop):
+        i = rows[row]
+        count[row] = sums[i, 0]
         c = float(sums[i, 0])
         mx, my, mz = sums[i, 1] / c, sums[i, 2] / c, sums[i, 3] / c
-        centroid[i, 0] = ((keys[i] >> 42) - BIAS) * size + (mx + 0.5) * step
-        centroid[i, 1] = (((keys[i] >> 21) & low) - BIAS) * size + (my + 0.5) * step
-        centroid[i, 2] = ((keys[i] & low) - BIAS) * size + (mz + 0.5) * step
-        variance[i, 0] = (sums[i, 4] / c - mx * mx) * step * step
-        variance[i, 1] = (sums[i, 5] / c - mx * my) * step * step
-        variance[i, 2] = (sums[i, 6] / c - my * my) * step * step
-        view[i, 0] = sums[i, 7] / (c * VIEW_STEPS)
-        view[i, 1] = sums[i, 8] / (c * VIEW_STEPS)
-    return centroid, variance, view
+        centroid[row, 0] = ((keys[i] >> 42) - BIAS) * size + (mx + 0.5) * step
+        centroid[row, 1] = (((keys[i] >> 21) & low) - BIAS) * size + (my + 0.5) * step
+        centroid[row, 2] = ((keys[i] & low) - BIAS) * size + (mz + 0.5) * step
+        variance[row, 0] = (sums[i, 4] / c - mx * mx) * step * step
+        variance[row, 1] = (sums[i, 5] / c - mx * my) * step * step
+        variance[row, 2] = (sums[i, 6] / c - my * my) * step * step
+        view[row, 0] = sums[i, 7] / (c * VIEW_STEPS)
+        view[row, 1] = sums[i, 8] / (c * VIEW_STEPS)
 
 
 @njit(cache=True, nogil=True)
-def _in_chosen_block(keys, every):  # type: ignore[no-untyped-def]
-    low = (1 << 21) - 1
-    out = np.empty(len(keys), dtype=np.bool_)
-    for i in range(len(keys)):
-        x, y, z = (keys[i] >> 42) - BIAS, ((keys[i] >> 21) & low) - BIAS, (keys[i] & low) - BIAS
-        out[i] = (spread(pack(x // BLOCK, y // BLOCK, z // BLOCK)) >> 8) % every == 0
-    return out
+def _in_chosen_block(keys, every, out, start, stop):  # type: ignore[no-untyped-def]
+    low, side = np.uint64((1 << 21) - 1), np.uint64(BLOCK)
+    beside = np.uint64(BLOCK * _FAR_BLOCK - BIAS)  # makes indices positive: unsigned division is far quicker
+    for i in range(start, stop):
+        key = np.uint64(keys[i])
+        x = int(((key >> np.uint64(42)) + beside) // side) - _FAR_BLOCK
+        y = int((((key >> np.uint64(21)) & low) + beside) // side) - _FAR_BLOCK
+        z = int(((key & low) + beside) // side) - _FAR_BLOCK
+        out[i] = (spread(pack(x, y, z)) >> 8) % every == 0
 
 
 @njit(cache=True, nogil=True)

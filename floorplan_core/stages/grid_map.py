@@ -115,7 +115,7 @@ def _sharpened(borders: Sequence[NDArray[np.int32]], coarse: float, config: Fram
     for span, pace in ((_SEARCH, 2 * fine), (4 * fine, fine / 2)):
         trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
         # bins of one cell: finer ones would only see the raster
-        yaw = float(trial[int(np.argmax(frames._sharpness(xy, normal, trial, 1.0)))])
+        yaw = float(trial[int(np.argmax(frames._scores(xy, normal, trial, 1.0)))])
     return float(frames._wrap(yaw))
 
 
