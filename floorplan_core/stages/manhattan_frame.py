@@ -237,7 +237,7 @@ def _sharpest_yaw(
     return float(_wrap(_summit(trial, score)))
 
 
-def _scores(points: Float, axis: NDArray[Any], yaws: Float, width: float) -> Float:
+def _scores(points: Float, axis: NDArray[Any], yaws: NDArray[Any], width: float) -> Float:
     """How sharp the walls are under each yaw; two threads that try half of them each."""
     score = np.zeros(len(yaws))
 
