@@ -48,9 +48,9 @@ def stages_run(
 
 
 def local(made: FloorPlan, x: float, y: float) -> Point:
-    """Plan coordinates in the local frame."""
-    at = made.frame.from_manhattan(np.array([[x, y]]))[0]
-    return float(at[0]), float(at[1])
+    """A place of the plan as corrections name it: in the local frame of the survey, here the world's."""
+    a, b = made.to_world(np.array([[x, y]]))[0]
+    return float(a), float(b)
 
 
 def at_plane(made: FloorPlan, plane: LayoutPlane, along: float | None = None) -> PlaneAt:
