@@ -210,7 +210,7 @@ class DoorsConfig(Section):
     min_response: float = setting(
         0.25, "", "Smallest response of the matched filter, 1 being a clean aperture.", ge=0, le=1
     )
-    min_confidence: float = setting(0.35, "", "Doors that are less probable are not reported.", ge=0, le=1)
+    min_confidence: float = setting(0.5, "", "Doors that are less probable are not reported.", ge=0, le=1)
     max_thickness: float = setting(
         0.6, "m", "Two faces farther apart than this are not one wall.", gt=0.02, le=2
     )

@@ -23,7 +23,7 @@ SAMPLE = Path(__file__).resolve().parents[1] / "resources" / "sample_survey"
 AFTER = {  # a setting, another value, and the first stage that has to run for it
     "segments.window": ("0.4", "segments"),
     "planes.tolerance": ("0.06", "planes"),
-    "doors.min_confidence": ("0.5", "planes"),  # wall profiles are cropped where doors are looked for
+    "doors.min_confidence": ("0.7", "planes"),  # wall profiles are cropped where doors are looked for
     "occupancy.min_component": ("0.7", "occupancy"),
     "candidates.tolerance": ("0.14", "candidates"),
     "cover.time_limit": ("30", "cover"),

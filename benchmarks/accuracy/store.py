@@ -40,8 +40,8 @@ the same in a mean.
 - **predicted area right**: share of the floor that was predicted, not seen, which is floor in truth.
 """
 RELIABILITY = """Every aperture in a wall, reported or not, by the probability that it was given, and how many
-are doors or openings in truth (shut ones too). The probabilities were fitted on the tuning half; in the other
-column they are used as they are. Doors below `doors.min_confidence` are not reported.
+are doors or openings in truth (shut ones too). The probabilities were fitted on the tuning half and on
+eighteen surveys that are in neither; in the other column they are used as they are. Doors below `doors.min_confidence` are not reported.
 """
 
 

@@ -1,5 +1,7 @@
 """Door leaves and their swing: which way a door is drawn to open. Metres, manhattan frame.
 
+A door that was seen shut is drawn shut: its leaf lies in the middle of the wall, and sweeps nothing.
+
 A survey does not show it, so the drawing follows the usual convention: into a room rather than a corridor,
 the hinge at the jamb nearer to a corner, the leaf clear of walls. Ties: towards the lower coordinate, hinge
 at the start.
@@ -9,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -28,15 +31,22 @@ REACH = 0.1  # metres behind the face where the region that a door opens into is
 
 @dataclass(frozen=True)
 class Leaf:
-    """One leaf, open at a right angle."""
+    """One leaf, open at a right angle; or shut, its free end where it lies when shut."""
 
     hinge: Float  # (2,)
     tip: Float  # (2,) free end of the open leaf
     closed: Float  # (2,) where the free end lies when shut
 
     @property
+    def shut(self) -> bool:
+        """True where the leaf does not stand open."""
+        return bool(np.array_equal(self.tip, self.closed))
+
+    @property
     def sector(self) -> Any:
-        """The floor that it sweeps, a shapely Polygon."""
+        """The floor that it sweeps, a shapely Polygon; empty where it is shut."""
+        if self.shut:
+            return shapely.Polygon()
         u, v = self.tip - self.hinge, self.closed - self.hinge
         t = np.linspace(0, np.pi / 2, ARC_STEPS)[:, None]
         return shapely.Polygon(np.vstack([self.hinge[None], self.hinge + np.cos(t) * u + np.sin(t) * v]))
@@ -48,6 +58,8 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
         return ()
     if opening.door.turn:
         return _of_wing(opening, regions)
+    if opening.door.shut:
+        return _shut(opening)
     options: list[tuple[tuple[bool, bool, float], int, tuple[Leaf, ...], Region | None]] = []
     polygons = np.array([r.polygon for r in regions], dtype=object)
     for direction in (-1, 1):
@@ -109,6 +121,20 @@ def _make(opening: Opening, direction: int, hinge: str) -> tuple[Leaf, ...]:
         return (_leaf(opening, direction, *ends),)
     middle = (door.start + door.end) / 2
     return _leaf(opening, direction, door.start, middle), _leaf(opening, direction, door.end, middle)
+
+
+def _shut(opening: Opening) -> tuple[Leaf, ...]:
+    """One leaf across the opening in the middle of the wall, or two that meet there."""
+    door = opening.door
+    middle = (opening.own[door.axis] + opening.own[door.axis + 2]) / 2
+    ends = (
+        (door.start, door.end)
+        if door.width <= DOUBLE
+        else (door.start, (door.start + door.end) / 2, door.end)
+    )
+    at = np.empty((len(ends), 2))
+    at[:, door.axis], at[:, 1 - door.axis] = middle, ends
+    return tuple(Leaf(a, b, b) for a, b in pairwise(at))
 
 
 def _leaf(opening: Opening, direction: int, hung: float, free: float) -> Leaf:

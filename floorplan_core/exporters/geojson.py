@@ -149,6 +149,7 @@ def _door(plan: FloorPlan, door: Door) -> Json:
         "planes": list(door.planes),
     }
     properties |= {} if door.height is None else {"height_m": _metres(door.height)}
+    properties |= {"shut": True} if door.shut else {}
     properties |= _corrected(door)
     return _feature(door.id, _line(plan, door.line()), properties)
 

@@ -48,6 +48,7 @@ POINT = 3  # pixels
 HATCH, HATCH_STEP = 3, 12  # pixels: predicted floor
 LIGHTER = 0.7  # how far predicted floor goes towards white
 WALL_LINE = 4  # pixels
+SHUT_LEAF = 3  # pixels
 DOOR_DEPTH = 0.25  # metres: a door without a known thickness
 NAME, AREA, PAD = 30, 17, 5  # pixels
 
@@ -215,6 +216,9 @@ def _draw_door(draw: Any, view: View, door: Door) -> None:
     low[:, 1 - axis], high[:, 1 - axis] = door.start, door.end
     (x0, y1), (x1, y0) = view.pixels(np.array([low[0], high[1]])).round().tolist()
     draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=ink, width=1)
+    if door.shut:  # its leaf, across the opening
+        x, y = (x0 + x1) / 2, (y0 + y1) / 2
+        draw.line([x, y0, x, y1] if axis == 0 else [x0, y, x1, y], fill=INK, width=SHUT_LEAF)
 
 
 def _draw_name(draw: Any, view: View, region: Region) -> None:

@@ -158,9 +158,8 @@ def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swings: list[tupl
     with canvas.group(id="doors", fill="none", stroke=palette.DOOR.accent, stroke_width=FINE):
         for opening, made in zip(walls.openings, swings, strict=True):
             door = opening.door
-            title = (
-                f"{door.kind.capitalize()} {door.id}: {door.width:.2f} m, confidence {door.confidence:.2f}"
-            )
+            kind = f"shut {door.kind}" if door.shut else door.kind
+            title = f"{kind.capitalize()} {door.id}: {door.width:.2f} m, confidence {door.confidence:.2f}"
             with canvas.group(title):
                 canvas.area(sheet.geometry(opening.polygon), fill=palette.DOOR.tint, stroke="none")
                 _draw_faces(canvas, sheet, opening, dashed=not made)
@@ -179,12 +178,14 @@ def _draw_faces(canvas: SvgCanvas, sheet: Sheet, opening: Opening, dashed: bool)
 
 def _draw_leaf(canvas: SvgCanvas, sheet: Sheet, leaf: Leaf) -> None:
     hinge, tip, closed = sheet.to_page(np.array([leaf.hinge, leaf.tip, leaf.closed])).tolist()
+    canvas.line(hinge, tip, stroke_width=LEAF)
+    if leaf.shut:
+        return
     radius = number(float(np.hypot(tip[0] - hinge[0], tip[1] - hinge[1])))
     u, v = np.subtract(tip, hinge), np.subtract(closed, hinge)
     sweep = int(u[0] * v[1] - u[1] * v[0] > 0)
     start, end = (f"{number(p[0])},{number(p[1])}" for p in (tip, closed))
     canvas.add("path", d=f"M{start}A{radius},{radius} 0 0 {sweep} {end}")
-    canvas.line(hinge, tip, stroke_width=LEAF)
 
 
 def _swept(sheet: Sheet, swings: list[tuple[Leaf, ...]]) -> list[Any]:

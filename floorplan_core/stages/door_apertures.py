@@ -33,6 +33,9 @@ _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be
 _CORNER_LINTEL = 0.3  # of the width of a corner opening that must be seen under a lintel
 _CORNER_RESPONSE = 0.5  # there is one step instead of two
 _FREE = 0.3  # share of the height of a door that is free where it is open
+_FREE_WITHIN = 0.4  # the same within the wall, where it is open by that alone
+_FREE_RESPONSE = 0.3  # there is no clear step
+_CELL = 0.1  # m: free space is known by cells of this size, and the outermost ones hold the jambs
 _JAMB = 0.3  # m, the widest stub of wall between a door and the corner that nobody may have seen
 _STUB = 0.15  # m, the same where free space does not tell: a voxel and a half
 _PIECE = 0.25  # m, the shortest piece of wall at which a door may begin
@@ -133,6 +136,7 @@ def apertures(
     for gap in (
         *_lintel_gaps(profile, walls, config),
         *_corner_gaps(profile, free, walls, meets.tolist(), config, lintels),
+        *_free_gaps(profile, free, config),
     ):
         if not _overlaps(gap, out):
             out.append(gap)
@@ -254,6 +258,25 @@ def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> lis
         for i, j in empty:
             if a < i and j < b:
                 out.append((*_edges(profile, i, j), float((profile.high[i:j] > 0).mean())))
+    return out
+
+
+def _free_gaps(profile: WallProfile, free: Float, config: DoorsConfig) -> list[Aperture]:
+    """Where free space reaches into the wall under a lintel, though points float in the opening.
+
+    Range sensors mix what lies before and behind an edge; seen at a slant such points fill a door in the
+    histogram.
+    """
+    out = []
+    for i, j in runs_of(free > _FREE_WITHIN).tolist():
+        gap = profile.start + profile.step * i, profile.start + profile.step * j, _FREE_RESPONSE
+        narrow = gap[1] - gap[0] < config.min_width - 1.5 * _CELL
+        if (
+            not narrow
+            and gap[1] - gap[0] <= config.max_width
+            and _lintel_share(profile, gap) >= _CORNER_LINTEL
+        ):
+            out.append(gap)
     return out
 
 

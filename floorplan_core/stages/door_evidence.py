@@ -5,8 +5,8 @@ to 1. A cabinet that hides a wall leaves an aperture with a lintel and wall on b
 seen behind it; a window is free to pass above its sill only, and nothing is free beyond its pane; rays cross
 the thickness of the wall from the floor up where there is a door. So these measures weigh most.
 The confidence is the probability that the aperture is a door or an opening of the building: a logistic
-regression on the apertures of the tuning half of the accuracy benchmark; ``docs/accuracy.md`` has its
-reliability on the other half.
+regression on the apertures of the tuning half of the accuracy benchmark and of eighteen surveys more;
+``docs/accuracy.md`` has its reliability on the other half.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.columns import count_bits, height_mask, levels_in_any
+from floorplan_core.geometry.columns import count_bits, height_mask
 from floorplan_core.model import LayoutPlane, WallProfile
 from floorplan_core.model.evidence import Evidence
 
@@ -26,29 +26,28 @@ Float = NDArray[np.float64]
 _BODY = (0.4, 1.8)  # m above the floor at which a door is open
 _FOOT = (0.2, 0.8)  # m above the floor: below the sill of a window, above skirting and threshold
 _WITHIN, _BEYOND = 0.08, 0.25  # m behind the face: inside any wall, and on the other side of an inner one
-_NEAR = (-0.05, 0.15)  # m before and behind the face in which a sill or a shut leaf stands
 _FLANK = 0.5  # m beside an aperture in which wall is looked for
 _STANDS = 0.2  # of the height below 2 m, seen: wall
 _STEP = 2.0  # m between two poses, the longest step that is still a path
 _NO_LINTELS = 0.9  # taken for the lintel where the survey shows none at all: the share over usual doors
 _NO_PASSAGE = 0.05  # of the width: less is no straight passage at all
+_PASSED, _CLEARLY = 0.6, 0.7  # shares of an aperture from which it is open, whatever was seen in it
 _OUTWARD = 0.3  # most that an opening can earn behind which neither passage nor wall was seen
 _DECIMALS = 3
 
-# Log odds of a whole measure, and of none. Fitted on 439 apertures, penalty 0.002 on the squared weights.
-_BIAS = -6.64
+# Log odds of a whole measure, and of none. Fitted on 976 apertures, penalty 0.002 on the squared weights.
+_BIAS = -5.69
 _WEIGHTS = {
-    "open": 1.54,
-    "foot": 1.89,
-    "beyond": 1.70,
-    "sill": -0.66,
-    "passage": 2.06,
-    "path": 1.00,
-    "lintel": 1.14,
-    "flanks": 0.62,
-    "flank": 0.68,
-    "response": 1.17,
-    "both": 0.48,
+    "open": 1.58,
+    "foot": 2.24,
+    "beyond": 1.27,
+    "passage": 1.34,
+    "path": 0.93,
+    "lintel": 0.60,
+    "flanks": 0.58,
+    "flank": 0.83,
+    "response": 1.09,
+    "both": 0.77,
 }
 
 
@@ -59,7 +58,6 @@ class DoorMeasures:
     open: float  # free within the thickness of the wall, at the heights of a body
     foot: float  # the same near the floor
     beyond: float  # free just behind the wall
-    sill: float  # surface seen near the floor, in or close to the plane
     passage: float  # width at which free space reaches straight through the wall
     path: float  # 1 where the sensor itself went through
     lintel: float  # width above which wall was seen
@@ -73,6 +71,10 @@ class DoorMeasures:
         names = [f.name for f in fields(self)]
         best = DoorMeasures(**{n: max(getattr(self, n), getattr(other, n)) for n in names})
         return replace(best, both=max(best.both, float(both)))
+
+    def is_open(self) -> bool:
+        """True where so much is free from the floor up that surfaces seen in it are points that float."""
+        return min(self.foot, self.passage) > _PASSED and min(self.beyond, self.lintel) > _CLEARLY
 
     def words(self) -> tuple[str, ...]:
         """What speaks for a door, in words."""
@@ -106,16 +108,14 @@ class WallView:
     open: Float  # free within its thickness, at the heights of a body
     foot: Float  # the same near the floor
     beyond: Float  # free just behind it
-    sill: Float  # surface seen near the floor
 
 
 def view_wall(plane: LayoutPlane, evidence: Evidence) -> WallView:
-    """Free space and low surfaces along ``plane``, once for all of its apertures."""
+    """Free space along ``plane``, once for all of its apertures."""
     return WallView(
         open=_free_share(plane, evidence, _WITHIN, _BODY),
         foot=_free_share(plane, evidence, _WITHIN, _FOOT),
         beyond=_free_share(plane, evidence, _BEYOND, _BODY),
-        sill=_seen_low(plane, evidence),
     )
 
 
@@ -132,7 +132,6 @@ def measure(
         open=_mean(view.open[inner]),
         foot=_mean(view.foot[inner]),
         beyond=_mean(view.beyond[inner]),
-        sill=_mean(view.sill[inner]),
         passage=_mean(profile.through[inner] > 0.4),
         path=float(_path_crosses(plane, start, end, evidence)),
         lintel=_mean(profile.high[inner] > 0),
@@ -166,18 +165,6 @@ def _free_share(plane: LayoutPlane, evidence: Evidence, depth: float, body: tupl
     mask = height_mask(*body)
     share: Float = count_bits(free[:, column] & mask) / int(mask).bit_count()
     return np.repeat(share, 2)
-
-
-def _seen_low(plane: LayoutPlane, evidence: Evidence) -> Float:
-    """(bins,) 0 to 1: share of the heights near the floor at which a surface was seen close to the plane."""
-    axis = plane.facing.axis
-    hits = evidence.hits if axis == 0 else evidence.hits.T
-    at = plane.offset - plane.facing.sign * np.arange(_NEAR[0], _NEAR[1] + 1e-6, evidence.fine)
-    columns = ((at - evidence.origin[axis]) / evidence.fine).astype(int)
-    mask = height_mask(*_FOOT)
-    seen = levels_in_any(hits, np.unique(np.clip(columns, 0, hits.shape[1] - 1))) & mask
-    share: Float = count_bits(seen) / int(mask).bit_count()
-    return share
 
 
 def _path_crosses(plane: LayoutPlane, start: float, end: float, evidence: Evidence) -> bool:

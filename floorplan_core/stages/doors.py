@@ -38,7 +38,8 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     merged = merge_faces(find_candidates(planes, evidence, config, lintels), planes, config)
     judged = [_judged(c, lintels) for c in merged]
     likely = [d for d in judged if d.confidence >= config.min_confidence]
-    kept = [_kind(d, config) for d in refine_edges(likely, planes, evidence)]
+    edged = refine_edges(likely, planes, evidence)
+    kept = [_kind(d, config) for d in edged if d.width >= config.min_width]
     kept += find_shut_doors(planes, evidence, kept, config)
     kept.sort(key=lambda d: (d.axis, d.offset, d.start))
     return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
@@ -55,10 +56,9 @@ def find_candidates(
         meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
         view = view_wall(plane, evidence)
         for start, end, response in apertures(plane.profile, view.open, plane.walls, meets, config, lintels):
-            if not has_parapet(plane.profile, start, end):
-                found.append(
-                    _candidate(plane, start, end, measure(plane, start, end, response, view, evidence))
-                )
+            seen = measure(plane, start, end, response, view, evidence)
+            if seen.is_open() or not has_parapet(plane.profile, start, end):
+                found.append(_candidate(plane, start, end, seen))
     return found
 
 

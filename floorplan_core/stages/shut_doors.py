@@ -1,21 +1,23 @@
 """Shut doors: leaves that stand back from the face of their wall, under its lintel and between its jambs.
 
-In: planes, the voxel columns and the surfels. Out: doors whose evidence says "shut". Nothing passes a shut
-door, so the aperture detectors see wall; but a leaf is thinner than its wall and set back from one of its
-faces. A recess is told from the wall's other face, seen through a gap in the data, by the side from which its
-points were seen; from a window by standing back down to the floor; from a set-back wall by width and lintel.
-Without viewpoints nothing can be said. Cost: a few rows of the columns a plane, one pass over the surfels.
+In: planes, the voxel columns and the surfels. Out: doors that are shut. Nothing passes a shut door, so the
+aperture detectors see wall; but a leaf is thinner than its wall and set back from one of its faces, by 3 cm
+and more. That is less than the noise of many sensors, so the depth is the median of all surfels over the
+height of a leaf, bin by bin along the wall. A recess is told from the wall's other face, seen through a gap
+in the data, by the side from which its points were seen; from a window by standing back down to the floor;
+from a set-back wall by width and lintel. Without viewpoints nothing can be said. Cost: one pass over the
+surfels, and sorting those of walls.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.geometry.columns import count_bits, height_mask, levels_in_any
 from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
@@ -24,98 +26,126 @@ from floorplan_core.stages.door_edges import points_in_boxes
 Float = NDArray[np.float64]
 
 _LEAF = (0.3, 1.8)  # m above the floor, where a leaf and no lintel is
-_FOOT = (0.1, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
-_LINTEL = (2.2, 2.5)  # m above the floor: above a door
-_DEPTH = (0.055, 0.17)  # m behind the face at which a leaf hangs
-_SKIN = 0.03  # m about the face: the noise of the wall itself
-_GONE, _THERE = 0.25, 0.5  # share of the heights that are seen, where a surface is not and where it is
-_FLANK, _JAMB = 0.3, 0.15  # m beside the leaf in which that much wall must stand
+_LOW = (0.08, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
+_LINTEL = (2.2, 2.6)  # m above the floor: above a door
+_DEPTH = (0.025, 0.125)  # m behind the face at which a leaf hangs; deeper are panes of outer walls
+_LEVEL, _SHARE = 0.02, 0.6  # m, and share of the leaf's depth: what lies less deep is the wall's face
+_REACH = (0.08, 0.22)  # m before and behind the face whose surfels are looked at
+_FLANK, _JAMB = 0.35, 0.15  # m beside the leaf in which that much wall must stand
 _WIDEST = 1.8  # m, a double door
 _SIDEWAYS = 0.2  # cosine of the steepest view that still tells from which side a point was seen
-_FLAT = 0.025  # m, spread of a leaf's points across it
-_COVERED = 0.7  # share of a leaf's width at which such points lie
+_FLAT = 0.012  # m, spread of a leaf's depth along it
 _UNDER = 0.5  # share of its width over which the lintel was seen
-CONFIDENCE = 0.8
+_ENOUGH = 4  # surfels whose median is believed
+_SEEN = 3  # bins of its lower part that must have been seen
+CONFIDENCE = 0.9
 WORDS = ("shut", "recess", "lintel", "wall on both sides")
+
+
+@dataclass(frozen=True)
+class DepthProfile:
+    """How deep behind a plane the surfaces lie, in bins along it; all (B,) metres, NaN where too few."""
+
+    start: float  # metres along the plane
+    step: float  # metres
+    leaf: Float  # at the heights of a leaf
+    low: Float  # near the floor
+    lintel: Float  # above doors
 
 
 def find_shut_doors(
     planes: Sequence[LayoutPlane], evidence: Evidence, doors: Sequence[Door], config: DoorsConfig
 ) -> list[Door]:
     """The shut doors where none of ``doors`` is, by plane and start; none where there are no viewpoints."""
-    if not evidence.viewpoints:
+    walls = [p for p in planes if len(p.walls)]
+    if not evidence.viewpoints or not walls:
         return []
-    found: list[tuple[LayoutPlane, float, float]] = []
-    for plane in planes:
-        for start, end in _recesses(plane, evidence, config):
-            taken = [(d.axis, d.offset, d.start, d.end) for d in doors]
-            taken += [(p.facing.axis, p.offset, s, e) for p, s, e in found]
-            if not any(_same(plane, start, end, *other, config.max_thickness) for other in taken):
-                found.append((plane, start, end))
-    boxes = np.array([_box(plane, start, end) for plane, start, end in found]).reshape(-1, 4)
-    leaves = points_in_boxes(evidence, boxes)
-    made = (_leaf(*place, evidence, rows) for place, rows in zip(found, leaves, strict=True))
-    return [door for door in made if door is not None]
+    near = points_in_boxes(evidence, np.array([_box(p) for p in walls]))
+    found: list[Door] = []
+    for plane, rows in zip(walls, near, strict=True):
+        for start, end in recesses(depth_profile(plane, evidence, rows), config.min_width):
+            made = _leaf(plane, start, end)
+            if not any(_same(made, other, config.max_thickness) for other in (*doors, *found)):
+                found.append(made)
+    return found
 
 
-def _same(
-    plane: LayoutPlane, start: float, end: float, axis: int, at: float, low: float, high: float, near: float
-) -> bool:
-    """True where an opening that is known lies in the same wall and place."""
-    shared = min(end, high) - max(start, low)
-    return plane.facing.axis == axis and abs(plane.offset - at) <= near and shared > 0
+def _same(a: Door, b: Door, near: float) -> bool:
+    """True where two openings lie in the same wall and place."""
+    shared = min(a.end, b.end) - max(a.start, b.start)
+    return a.axis == b.axis and abs(a.offset - b.offset) <= near and shared > 0
 
 
-def _seen(
-    plane: LayoutPlane, evidence: Evidence, depth: tuple[float, float], heights: tuple[float, float]
-) -> Float:
-    """(bins,) 0 to 1: share of ``heights`` at which a surface was seen, ``depth`` metres behind the face."""
-    axis = plane.facing.axis
-    hits = evidence.hits if axis == 0 else evidence.hits.T
-    ends = plane.offset - plane.facing.sign * np.array(depth)
-    low, high = np.floor((np.sort(ends) - evidence.origin[axis]) / evidence.fine).astype(int)
-    mask = height_mask(*heights)
-    seen = levels_in_any(hits, range(max(low, 0), min(max(high, 0) + 1, hits.shape[1]))) & mask
-    share: Float = count_bits(seen) / int(mask).bit_count()
-    return share
+def _box(plane: LayoutPlane) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 of all that lies close to the walls of a plane."""
+    u0, u1 = sorted(plane.offset + plane.facing.sign * np.array([_REACH[0], -_REACH[1]]))
+    v0, v1 = float(plane.walls.min()) - _FLANK, float(plane.walls.max()) + _FLANK
+    return (u0, v0, u1, v1) if plane.facing.axis == 0 else (v0, u0, v1, u1)
 
 
-def _recesses(plane: LayoutPlane, evidence: Evidence, config: DoorsConfig) -> list[tuple[float, float]]:
-    """(start, end) metres along the plane where its face stands back between jambs and under a lintel."""
-    fine = evidence.fine
-    base = float(evidence.origin[1 - plane.facing.axis])
-    face = _seen(plane, evidence, (-_SKIN, _SKIN), _LEAF)
-    back = _seen(plane, evidence, _DEPTH, _LEAF)
-    above = _seen(plane, evidence, (-_SKIN, _SKIN), _LINTEL) > 0
-    foot = _seen(plane, evidence, (-_SKIN, _SKIN), _FOOT)
-    flank, jamb = round(_FLANK / fine), round(_JAMB / fine)
-    out = []
-    for a, b in runs_of(face < _GONE).tolist():
-        fits = config.min_width <= (b - a) * fine <= _WIDEST
-        if not fits or (back[a:b] > _THERE).mean() < _COVERED or above[a:b].mean() < _UNDER:
-            continue
-        if foot[a:b].mean() > _GONE:
-            continue  # a window, glazed nearly to the floor
-        beside = face[max(0, a - flank) : a], face[b : b + flank]
-        if min((side > _THERE).sum() for side in beside) >= jamb:
-            out.append((base + a * fine, base + b * fine))
+def depth_profile(plane: LayoutPlane, evidence: Evidence, rows: NDArray[np.int64]) -> DepthProfile:
+    """The depths of the surfels ``rows`` that were seen from the side to which ``plane`` looks."""
+    axis, sign = plane.facing.axis, plane.facing.sign
+    mine = rows[evidence.view[rows, axis] * sign > _SIDEWAYS]
+    xyz = evidence.xyz[mine]
+    start = float(plane.walls.min()) - _FLANK
+    bins = int((float(plane.walls.max()) + _FLANK - start) / evidence.fine) + 1
+    along = np.clip(((xyz[:, 1 - axis] - start) / evidence.fine).astype(int), 0, bins - 1)
+    depth = (plane.offset - xyz[:, axis]) * sign
+
+    def over(heights: tuple[float, float]) -> Float:
+        inside = (xyz[:, 2] > heights[0]) & (xyz[:, 2] < heights[1])
+        return _medians(along[inside], depth[inside], bins)
+
+    return DepthProfile(start, evidence.fine, over(_LEAF), over(_LOW), over(_LINTEL))
+
+
+def _medians(group: NDArray[np.int64], value: Float, groups: int) -> Float:
+    """(groups,) the upper median of the values of each group; NaN where there are too few."""
+    ordered = value[np.lexsort((value, group))]
+    count = np.bincount(group, minlength=groups)
+    first = np.cumsum(count) - count
+    known = count >= _ENOUGH
+    out = np.full(groups, np.nan)
+    out[known] = ordered[(first + count // 2)[known]]
     return out
 
 
-def _box(plane: LayoutPlane, start: float, end: float) -> tuple[float, float, float, float]:
-    """x0, y0, x1, y1 of where the leaf must be."""
-    u0, u1 = sorted(plane.offset - plane.facing.sign * np.array(_DEPTH))
-    return (u0, start, u1, end) if plane.facing.axis == 0 else (start, u0, end, u1)
+def recesses(profile: DepthProfile, narrowest: float) -> list[tuple[float, float]]:
+    """(start, end) metres along the plane where its face stands back between jambs and under a lintel."""
+    back = np.nan_to_num(profile.leaf, nan=-1.0) > _DEPTH[0]
+    return [
+        (profile.start + profile.step * a, profile.start + profile.step * b)
+        for a, b in runs_of(back).tolist()
+        if narrowest - profile.step < (b - a) * profile.step <= _WIDEST and _is_leaf(profile, a, b)
+    ]
 
 
-def _leaf(
-    plane: LayoutPlane, start: float, end: float, evidence: Evidence, rows: NDArray[np.int64]
-) -> Door | None:
-    """The door, if a flat surface seen from the plane's own side fills the recess."""
-    axis, sign = plane.facing.axis, plane.facing.sign
-    xyz, toward = evidence.xyz[rows], evidence.view[rows, axis] * sign
-    mine = xyz[(toward > _SIDEWAYS) & (xyz[:, 2] > _LEAF[0]) & (xyz[:, 2] < _LEAF[1])]
-    bins = np.unique(((mine[:, 1 - axis] - start) / evidence.fine).astype(int))
-    if len(bins) < _COVERED * (end - start) / evidence.fine or float(np.std(mine[:, axis])) > _FLAT:
-        return None
-    return Door("", (plane.id,), axis, plane.offset, start, end, confidence=CONFIDENCE, evidence=WORDS)
+def _is_leaf(profile: DepthProfile, a: int, b: int) -> bool:
+    """True where the bins from a to b are one flat board in a wall: beside, above, and down to the floor."""
+    depth = float(np.median(profile.leaf[a:b]))
+    if depth > _DEPTH[1] or float(np.std(profile.leaf[a + 1 : b - 1])) > _FLAT:
+        return False
+    face = min(_LEVEL, _SHARE * depth)
+    flank, jamb = round(_FLANK / profile.step), round(_JAMB / profile.step)
+    beside = profile.leaf[max(0, a - flank) : a], profile.leaf[b : b + flank]
+    if min(int((np.abs(side) < face).sum()) for side in beside) < jamb:
+        return False
+    if float((np.abs(profile.lintel[a:b]) < face).mean()) < _UNDER:
+        return False
+    low = profile.low[a:b][np.isfinite(profile.low[a:b])]
+    return len(low) >= _SEEN and float(np.median(low)) > depth - _LEVEL
+
+
+def _leaf(plane: LayoutPlane, start: float, end: float) -> Door:
+    return Door(
+        "",
+        (plane.id,),
+        plane.facing.axis,
+        plane.offset,
+        start,
+        end,
+        confidence=CONFIDENCE,
+        evidence=WORDS,
+        shut=True,
+    )

@@ -93,7 +93,7 @@ def test_where_nothing_was_seen_the_aperture_stays():
 
 
 def test_the_two_faces_share_what_is_open_in_both():
-    sure = DoorMeasures(1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9, 0.0)
+    sure = DoorMeasures(1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9, 0.0)
     one = Candidate(Door("", ("p1",), 0, NEAR, 2.0, 2.9), sure)
     hidden = Candidate(replace(one.door, planes=("p2",), offset=FAR, start=0.9), sure)
     (merged,) = merge_faces([one, hidden], PLANES, DoorsConfig())

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
 
 from floorplan_core.model import Door
+from floorplan_core.stages.shut_doors import DepthProfile, recesses
 from tests.box_world import EYE, HEIGHT, LINTEL, Box, run, survey, two_rooms
 
 THICK = 0.16
@@ -31,7 +34,7 @@ def shut_doors(*extra: Box, lintel: float = LINTEL, trajectory: bool = True) -> 
     boxes = [*two_rooms((START, END, lintel), thick=THICK), *extra]
     result = run(survey(boxes, PLACES, rays=(200, 70)), trajectory=trajectory)
     assert result.plan is not None, result.error
-    return tuple(d for d in result.plan.doors if "shut" in d.evidence)
+    return tuple(d for d in result.plan.doors if d.shut)
 
 
 def test_a_leaf_that_stands_back_is_a_shut_door():
@@ -40,8 +43,35 @@ def test_a_leaf_that_stands_back_is_a_shut_door():
     assert door.kind == "door"
     assert (door.start, door.end) == (pytest.approx(START, abs=0.1), pytest.approx(END, abs=0.1))
     assert door.offset == pytest.approx(4.0, abs=0.02)
+    assert "shut" in door.evidence
     assert 0.5 < door.confidence < 1
     assert len(door.connects) == 1
+
+
+def profile(depth: float, noise: float = 0.0, sill: float = 0.0) -> DepthProfile:
+    """A wall of 3 m whose middle stands back by ``depth`` (near the floor by ``depth - sill``)."""
+    rng = np.random.default_rng(4)
+    back = np.where((np.arange(60) >= 20) & (np.arange(60) < 38), depth, 0.0)
+    low = np.where(back > 0, depth - sill, 0.0)
+    return DepthProfile(1.0, 0.05, back + rng.normal(0, noise, 60), low, np.zeros(60))
+
+
+@pytest.mark.parametrize("depth", [0.03, 0.05, 0.1, 0.12])
+def test_recesses_of_3_to_12_cm_are_doors(depth):
+    ((start, end),) = recesses(profile(depth, noise=0.003), 0.6)
+    assert (start, end) == pytest.approx((2.0, 2.9), abs=0.051)
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.015, 0.2])
+def test_less_is_noise_and_more_another_wall(depth):
+    assert recesses(profile(depth, noise=0.003), 0.6) == []
+
+
+def test_a_recess_above_a_sill_or_up_to_the_ceiling_is_none():
+    niche = profile(0.1)
+    assert recesses(profile(0.1, sill=0.1), 0.6) == []
+    assert recesses(replace(niche, lintel=niche.leaf), 0.6) == []
+    assert recesses(replace(niche, low=np.full(60, np.nan)), 0.6) == []
 
 
 @pytest.mark.parametrize(
