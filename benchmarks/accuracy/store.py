@@ -41,7 +41,8 @@ the same in a mean.
 """
 RELIABILITY = """Every aperture in a wall, reported or not, by the probability that it was given, and how many
 are doors or openings in truth (shut ones too). The probabilities were fitted on the tuning half and on
-eighteen surveys that are in neither; in the other column they are used as they are. Doors below `doors.min_confidence` are not reported.
+eighteen surveys that are in neither; in the other column they are used as they are. Doors below
+`doors.min_confidence` are not reported.
 """
 
 
