@@ -186,8 +186,9 @@ class Run:
 
 
 def run(given: Survey, config: Config | None = None, trajectory: bool = True) -> Run:
-    """Everything that the stages make of a survey."""
+    """Everything that the stages make of a survey; by default in the axes of its world, as the boxes are."""
     recorder = Recorder()
+    config = config or Config().with_values({"voxels.own_axes": "false"})
     planner = FloorPlanner(config, recorder, "boxes")
     data = given.reconstruction(trajectory=trajectory)
     for chunk in data.chunks():
