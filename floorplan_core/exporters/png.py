@@ -210,15 +210,13 @@ def _draw_door(draw: Any, view: View, door: Door) -> None:
         across = half * np.array([a[1] - b[1], b[0] - a[0]]) / door.width
         corners = view.pixels(np.array([a - across, b - across, b + across, a + across])).round()
         draw.polygon([tuple(p) for p in corners.tolist()], fill=DOOR, outline=ink)
-        return
-    low, high = door.line() - half, door.line() + half
-    axis = door.axis
-    low[:, 1 - axis], high[:, 1 - axis] = door.start, door.end
-    (x0, y1), (x1, y0) = view.pixels(np.array([low[0], high[1]])).round().tolist()
-    draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=ink, width=1)
+    else:
+        low, high = door.line() - half, door.line() + half
+        low[:, 1 - door.axis], high[:, 1 - door.axis] = door.start, door.end
+        (x0, y1), (x1, y0) = view.pixels(np.array([low[0], high[1]])).round().tolist()
+        draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=ink, width=1)
     if door.shut:  # its leaf, across the opening
-        x, y = (x0 + x1) / 2, (y0 + y1) / 2
-        draw.line([x, y0, x, y1] if axis == 0 else [x0, y, x1, y], fill=INK, width=SHUT_LEAF)
+        draw.line([tuple(p) for p in view.pixels(door.line()).round().tolist()], fill=INK, width=SHUT_LEAF)
 
 
 def _draw_name(draw: Any, view: View, region: Region) -> None:

@@ -123,10 +123,10 @@ class Door:
     kind: str = "door"  # "door" or "opening" (wider than a door, or without a lintel)
     confidence: float = 0.5  # 0 to 1
     evidence: tuple[str, ...] = ()  # words
-    shut: bool = False  # True: a leaf that stood shut when it was seen
     connects: tuple[str, ...] = ()  # ids of the one or two regions that it joins
     by_hand: str = ""  # what a person said of it: "accepted", "resized" or "added"; "" nothing
     turn: float = 0.0  # radians from the plan's axes to those of the wing that all of this refers to
+    shut: bool = False  # True: a leaf that stood shut when it was seen
 
     @property
     def width(self) -> float:
