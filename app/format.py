@@ -9,6 +9,27 @@ SQUARE_FEET_PER_M2 = 1 / METRES_PER_FOOT**2
 INCH_FRACTION = 16  # a sixteenth is what a tape shows
 DASH = "–"
 
+_marks = {".": ".", ",": ","}  # of the language: the decimal mark, and what parts thousands
+
+
+def use_marks(decimal: str, thousands: str) -> None:
+    """Write numbers with these marks from now on. What is exported never goes through this module."""
+    _marks.update({".": decimal, ",": thousands})
+
+
+def number(value: float, spec: str) -> str:
+    """A number by a format specification, with the marks of the language.
+
+    >>> number(1234.5, ",.2f")
+    '1,234.50'
+    """
+    return localised(f"{value:{spec}}")
+
+
+def localised(text: str) -> str:
+    """A number that was written with a decimal point, with the marks of the language."""
+    return text.translate(str.maketrans(_marks))
+
 
 def length(metres: float | None, units: str = "m") -> str:
     """A length with its unit; a dash where there is none.
@@ -20,7 +41,7 @@ def length(metres: float | None, units: str = "m") -> str:
         return DASH
     if units == "ft-in":
         return _feet(metres)
-    return f"{metres + 0.0:.3f} m"
+    return f"{number(metres + 0.0, '.3f')} m"
 
 
 def area(m2: float | None, units: str = "m") -> str:
@@ -32,8 +53,8 @@ def area(m2: float | None, units: str = "m") -> str:
     if m2 is None:
         return DASH
     if units == "ft-in":
-        return f"{m2 * SQUARE_FEET_PER_M2:,.1f} sq ft"
-    return f"{m2:,.2f} m²"
+        return f"{number(m2 * SQUARE_FEET_PER_M2, ',.1f')} sq ft"
+    return f"{number(m2, ',.2f')} m²"
 
 
 def small(metres: float | None, units: str = "m") -> str:
@@ -56,7 +77,7 @@ def angle(degrees: float | None) -> str:
     >>> angle(17.234)
     '17.23°'
     """
-    return DASH if degrees is None else f"{degrees:.2f}°"
+    return DASH if degrees is None else f"{number(degrees, '.2f')}°"
 
 
 def percent(share: float | None, digits: int = 0) -> str:
@@ -65,16 +86,16 @@ def percent(share: float | None, digits: int = 0) -> str:
     >>> percent(0.918), percent(0.0178, 2)
     ('92 %', '1.78 %')
     """
-    return DASH if share is None else f"{share * 100:.{digits}f} %"
+    return DASH if share is None else f"{number(share * 100, f'.{digits}f')} %"
 
 
-def count(number: int) -> str:
+def count(things: int) -> str:
     """A number of things, with separators of thousands; millions are shortened.
 
     >>> count(18204), count(2_412_000)
     ('18,204', '2.4 M')
     """
-    return f"{number / 1e6:.1f} M" if number >= 1e6 else f"{number:,}"
+    return f"{number(things / 1e6, '.1f')} M" if things >= 1e6 else number(things, ",")
 
 
 def seconds(value: float) -> str:
@@ -84,7 +105,7 @@ def seconds(value: float) -> str:
     ('0.21 s', '8.0 s', '1:15 min', '1:06:40 h')
     """
     if value < 60:
-        return f"{value:.2f} s" if value < 1 else f"{value:.1f} s"
+        return f"{number(value, '.2f' if value < 1 else '.1f')} s"
     minutes, rest = divmod(round(value), 60)
     if minutes < 60:
         return f"{minutes}:{rest:02d} min"
@@ -97,7 +118,10 @@ def parse_length(text: str) -> float | None:
     >>> parse_length("3,20"), parse_length("320 cm"), parse_length("12' 3 1/2" + '"'), parse_length("x")
     (3.2, 3.2, 3.7465, None)
     """
-    cleaned = text.strip().lower().replace("′", "'").replace("″", '"').replace("''", '"')
+    cleaned = text.strip().lower()
+    if "." in cleaned and "," in cleaned:  # the one that comes first parts thousands
+        cleaned = cleaned.replace(min(".,", key=cleaned.index), "")
+    cleaned = cleaned.replace("′", "'").replace("″", '"').replace("''", '"')
     try:
         if "'" in cleaned or '"' in cleaned:
             return _parse_feet(cleaned)

@@ -20,11 +20,13 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTa
 
 from floorcast_app import theme
 from floorcast_app.actions import MENUS
+from floorcast_app.dialogs.thumbnails import plan_png
 from floorcast_app.dock_layout import TitleBars, arrange, tab_bars
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.recovery_banner import RecoveryBanner
 from floorcast_app.panels.status import StatusBar
+from floorcast_app.panels.storey_chooser import StoreyChooser
 from floorcast_app.panels.toast import Toast
 from floorcast_app.panes import PANES
 from floorcast_app.qt_actions import QtActions
@@ -32,13 +34,15 @@ from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
+from floorcast_app.viewports.canvas import PlanCanvas
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import OutputError, UsageError
 
 TOOLBAR = (
     "file.open", "file.save", "plan.again", "plan.cancel", "|", "edit.undo", "edit.redo", "|",
     "tool.select", "tool.measure", "tool.plane", "tool.door", "tool.wall", "tool.split", "tool.merge", "|",
-    "view.fit", "file.export", "file.picture", "|", "view.inspect", "view.plan", "view.run", "view.theme",
+    "view.fit", "storey", "file.export", "file.picture", "|",
+    "view.inspect", "view.plan", "view.run", "view.theme",
 )  # fmt: skip
 MENU_TITLES = {
     "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
@@ -76,6 +80,7 @@ class MainWindow(QMainWindow):
         self.empty = EmptyState(workbench, self.recent, self)
         self.recovery = None if unattended else RecoveryBanner(workbench, self)
         workbench.ui = QtInterface(self)
+        workbench.thumbnail = lambda: plan_png(self)
         workbench.view.changed.connect(self._look_changed)
         workbench.document.saved_changed.connect(self._retitle)
         workbench.survey_changed.connect(self._survey_changed)
@@ -102,24 +107,31 @@ class MainWindow(QMainWindow):
         self.docks[id].show()
         self.docks[id].raise_()
 
-    def picture(self, pane: str, width: int, height: int) -> QImage:
-        """A picture of a pane, or of the whole window ("window")."""
+    def picture(self, pane: str, width: int, height: int, scale_bar: bool | None = None) -> QImage:
+        """A picture of a pane, or of the whole window ("window").
+
+        :param scale_bar: with one or without, where the pane is a plan; None: as the pane shows it.
+        """
         if pane == "window":
             return self._window_picture(width, height)
         widget = self.pane(pane)
+        if isinstance(widget, PlanCanvas):
+            return widget.picture(width, height, scale_bar)
         if hasattr(widget, "picture"):
             return widget.picture(width, height)
         widget.resize(width, height)
         return widget.grab().toImage()
 
-    def save_picture(self, path: Path, pane: str, width: int, height: int) -> None:
+    def save_picture(
+        self, path: Path, pane: str, width: int, height: int, scale_bar: bool | None = None
+    ) -> None:
         """Write the picture of a pane; :class:`OutputError` where that fails."""
         if not 16 <= width <= 16384 or not 16 <= height <= 16384:
             raise UsageError(f"A picture has 16 to 16384 pixels a side (asked: {width} x {height}).")
         from floorplan_core.files import output_file
 
         with output_file(path) as staging:
-            if not self.picture(pane, width, height).save(str(staging), _picture_format(path)):
+            if not self.picture(pane, width, height, scale_bar).save(str(staging), _picture_format(path)):
                 raise OutputError(f"Cannot write the picture {path.name}.")
         if not self.unattended:
             self.tell(tr("Wrote {name}.").format(name=path.name))
@@ -259,9 +271,22 @@ class MainWindow(QMainWindow):
         for id in TOOLBAR:
             if id == "|":
                 bar.addSeparator()
+            elif id == "storey":
+                self._add_storeys(bar)
             else:
                 bar.addAction(self.actions_by_id[id])
         self.addToolBar(bar)
+
+    def _add_storeys(self, bar: QToolBar) -> None:
+        """The chooser of storeys, there only where a survey has several."""
+        chooser = StoreyChooser(self.workbench, bar)
+        shown = bar.addWidget(chooser)
+
+        def follow(*_: object) -> None:
+            shown.setVisible(chooser.wanted)
+
+        self.workbench.plan_changed.connect(follow)
+        follow()
 
     def _window_picture(self, width: int, height: int) -> QImage:
         """The whole window; one smaller than it can be is scaled."""

@@ -59,6 +59,7 @@ _READERS: dict[str, Any] = {
     "ceiling_cut": lambda v: None if v is None else float(v),
     "section": lambda v: None if v is None else _floats(4)(v),
     "units": _one_of(("m", "ft-in")),
+    "scale_bar": bool,
     "theme": _one_of(("light", "dark")),
     "workspace": _one_of(("inspect", "plan", "run")),
 }

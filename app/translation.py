@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QSettings, QTranslator
 
-from floorcast_app import theme
+from floorcast_app import format, theme
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
@@ -27,6 +27,10 @@ CONTEXT = "Floorcast"
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 SETTING = "language"  # in the user's settings
 LANGUAGE_VARIABLE = "FLOORCAST_LANGUAGE"  # "de" or "en": before the user's choice and the system's language
+
+_NUMBER = re.compile(r"-?[\d,]*\.\d+( \S+)?")
+_MARKS = {"en": (".", ","), "de": (",", ".")}  # the decimal mark, and what parts thousands
+_LOCALES = {"en": "en_GB", "de": "de_DE"}  # of the fields that numbers are typed into
 
 _installed: list[QTranslator] = []
 
@@ -50,7 +54,7 @@ def tr_text(text: str) -> str:
         found = pattern.fullmatch(text)
         translated = tr(source) if found else source
         if found and translated != source:
-            return _filled(translated, [tr_text(group) for group in found.groups()])
+            return _filled(translated, [_part(group) for group in found.groups()])
     return text
 
 
@@ -67,6 +71,8 @@ def install_translator(app: QApplication, wanted: str = "") -> str:
     while _installed:
         app.removeTranslator(_installed.pop())
     language = choose_language(wanted or str(QSettings().value(SETTING, "")))
+    format.use_marks(*_MARKS[language])
+    QLocale.setDefault(QLocale(_LOCALES[language]))
     if language == "en":
         return language
     qt_folder = QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)
@@ -91,6 +97,11 @@ def _patterns() -> tuple[tuple[re.Pattern[str], str], ...]:
 def _as_pattern(source: str) -> re.Pattern[str]:
     parts = re.split(r"\{\d+\}", source)
     return re.compile("(.+?)".join(re.escape(p) for p in parts))
+
+
+def _part(group: str) -> str:
+    """What stood in a gap: another sentence, or a number with its unit."""
+    return format.localised(group) if _NUMBER.fullmatch(group) else tr_text(group)
 
 
 def _filled(translated: str, groups: Sequence[str]) -> str:

@@ -26,6 +26,7 @@ class Look:
     ceiling_cut: float | None = 2.2  # metres above the floor; None: nothing is cut
     section: tuple[float, float, float, float] | None = None  # x0, y0, x1, y1 of the section box, manhattan
     units: str = "m"  # "m" or "ft-in"
+    scale_bar: bool = True  # in the plan panes
     theme: str = "light"  # "light" or "dark"
     workspace: str = "inspect"  # "inspect", "plan" or "run"
 

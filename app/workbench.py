@@ -6,6 +6,7 @@ in :mod:`floorcast_app.jobs`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -21,14 +22,17 @@ from floorcast_app.point_store import PointStore
 from floorcast_app.run_replay import Snapshot, snapshots
 from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
-from floorcast_app.state import Check, DocumentState, SurveyRef
+from floorcast_app.state import Check, DocumentState, StoreyEdits, SurveyRef
 from floorcast_app.tools.box import ToolBox
 from floorcast_app.view_state import ViewState
 from floorplan_core.errors import FloorPlanError, UsageError
 from floorplan_core.model import FloorPlan
 from floorplan_core.model.corrections import Correction
+from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.session import PlanningSession
+
+_Planned = tuple[PlanningSession, FloorPlan, tuple[Storey, ...]]
 
 
 class Workbench:
@@ -43,11 +47,13 @@ class Workbench:
         self.jobs = Jobs(post)
         self.actions: ActionRegistry = all_actions()
         self.ui: Interface = NoInterface()
+        self.thumbnail: Callable[[], bytes | None] = lambda: None  # a small PNG of the plan, from a window
         self.project: Path | None = None  # where the document is saved; None: nowhere yet
         # World metres of what corrections and checks are relative to; None: of the survey's local frame
         self.origin: tuple[float, float] | None = None
         self.names: tuple[tuple[str, str, str], ...] = ()  # of the regions, as they were saved
         self.plan: FloorPlan | None = None
+        self.storeys: tuple[Storey, ...] = ()  # of the survey, lowest first; nearly always one
         self.session: PlanningSession | None = None
         self.points = PointStore()
         self.warnings: tuple[str, ...] = ()
@@ -127,32 +133,29 @@ class Workbench:
 
     def read_and_plan(self) -> None:
         """Start the job that reads the survey and plans it from nothing."""
-        ref, state, origin = self.state.survey, self.state, self.origin
+        ref, state = self.state.survey, self.state
         if ref is None:
             return
         self.points = PointStore()
         store = self.points
         names = self.session.names if self.session is not None else self.names
 
-        def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
+        def work(observer: Observer) -> _Planned:
             session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
             session.begin_with_names(names)
             session.read(observer, lambda chunk: store.add(chunk))
-            return session, session.plan(state.config, state.corrections, observer, origin=origin)
+            return self._plan(session, state, observer)
 
         self.jobs.start(f"Reading {ref.path.name}", work, self._planned)
 
     def replan(self) -> None:
         """Start the job that brings the plan up to date with settings and corrections."""
-        session, state, origin = self.session, self.state, self.origin
+        session, state = self.session, self.state
         if session is None or not session.ready or session.must_read_again(state.config):
             self.read_and_plan()
             return
 
-        def work(observer: Observer) -> tuple[PlanningSession, FloorPlan]:
-            return session, session.plan(state.config, state.corrections, observer, origin=origin)
-
-        self.jobs.start("Planning", work, self._planned)
+        self.jobs.start("Planning", lambda observer: self._plan(session, state, observer), self._planned)
 
     def cancel(self) -> None:
         """Stop what runs; the last plan stays."""
@@ -209,6 +212,11 @@ class Workbench:
             config=loaded.config,
             corrections=loaded.corrections,
             checks=tuple(Check(**c) for c in loaded.checks),
+            storey=loaded.storey,
+            elsewhere=tuple(
+                StoreyEdits(n, said, tuple(Check(**c) for c in checks))
+                for n, said, checks in loaded.elsewhere
+            ),
         )
         self.view.put(look_from_dict(loaded.view))
         self.document.reset(state, text, saved)
@@ -223,7 +231,7 @@ class Workbench:
         """Save the document; whole or not at all."""
         from floorplan_core import project_file
 
-        project_file.save(path, self.saved_form())
+        project_file.save(path, self.saved_form(), self.thumbnail())
         self.project = path
         self.document.mark_saved()
         self.ui.tell(f"Saved {path.name}.")
@@ -241,6 +249,10 @@ class Workbench:
             view=look_to_dict(self.view.look),
             origin=self.origin or (self.session.origin if self.session else None),
             names=self.session.names if self.session else self.names,
+            storey=state.storey,
+            elsewhere=tuple(
+                (e.storey, e.corrections, tuple(asdict(c) for c in e.checks)) for e in state.elsewhere
+            ),
         )
 
     def relocate(self, path: Path) -> None:
@@ -316,12 +328,21 @@ class Workbench:
             self._close_survey()
             self.survey_changed.emit()
             self.read_and_plan()
-        elif after.config != before.config or after.corrections != before.corrections:
+        elif (after.config, after.corrections, after.storey) != (
+            before.config,
+            before.corrections,
+            before.storey,
+        ):
             self.replan()
         self.selection.keep_only(self.exists)
 
-    def _planned(self, result: tuple[PlanningSession, FloorPlan]) -> None:
-        self.session, self.plan = result
+    def _plan(self, session: PlanningSession, state: DocumentState, observer: Observer) -> _Planned:
+        """The plan of the storey that is shown; in a job's thread."""
+        plan = session.plan(state.config, state.corrections, observer, state.storey, self.origin)
+        return session, plan, session.storeys(state.config)
+
+    def _planned(self, result: _Planned) -> None:
+        self.session, self.plan, self.storeys = result
         self._whole = self.plan
         self.warnings = self.plan.warnings
         self.assumptions = self.session.reconstruction.assumptions
@@ -345,7 +366,7 @@ class Workbench:
 
     def _close_survey(self) -> None:
         self.jobs.cancel()
-        self.session, self.plan, self.warnings = None, None, ()
+        self.session, self.plan, self.storeys, self.warnings = None, None, (), ()
         self._whole, self.timeline = None, []
         self.timeline_changed.emit()
         self.points = PointStore()

@@ -36,6 +36,7 @@ _TREE, _THUMBNAIL = "project.json", "thumbnail.png"
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # no time stamps: the same project gives the same bytes
 _MOST_BYTES = {_TREE: 2**27, _THUMBNAIL: 2**24}  # larger members are bombs
 _LONGEST_PATH = 4096
+_MOST_STOREYS = 1000  # no building has more
 _DAMAGE = (
     ValueError,
     KeyError,
@@ -51,6 +52,7 @@ _DAMAGE = (
 
 Json = dict[str, Any]
 Survey = tuple[Path, Path | None, str]  # input, trajectory, digest of the input ("": not known)
+StoreyEdits = tuple[int, tuple[Correction, ...], tuple[Json, ...]]  # storey, its corrections, its checks
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,8 @@ class Project:
     # World metres of what corrections and checks are relative to; None: of the survey's own local frame
     origin: Point | None = None
     names: tuple[tuple[str, str, str], ...] = ()  # of regions: see PlanningSession.names
+    storey: int = 0  # the one that is shown, which corrections and checks belong to; 0 is the lowest
+    elsewhere: tuple[StoreyEdits, ...] = ()  # of the other storeys
     missing: tuple[Path, ...] = ()  # inputs that are not where they were
     notes: tuple[str, ...] = ()  # sentences: what is not as it was saved
 
@@ -174,6 +178,11 @@ def _tree(project: Project, folder: Path, take_digest: bool) -> Json:
         "config": project.config.model_dump(mode="json"),
         "corrections": to_json(project.corrections),
         "checks": [dict(c) for c in project.checks],
+        "storey": project.storey,
+        "storeys": [
+            {"storey": number, "corrections": to_json(said), "checks": [dict(c) for c in checks]}
+            for number, said, checks in project.elsewhere
+        ],
         "view": project.view,
     }
 
@@ -229,6 +238,8 @@ def _project(tree: Json, folder: Path) -> Project:
         view,
         None if origin is None else point(origin),
         _names(tree.get("names", [])),
+        _storey(tree.get("storey", 0)),
+        _elsewhere(tree.get("storeys", [])),
         missing,
         (*notes, *unknown),
     )
@@ -287,6 +298,25 @@ def _checks(data: Any) -> tuple[Json, ...]:
     if not isinstance(data, Sequence) or isinstance(data, str):
         raise ValueError("its checks are not a list")
     return tuple(_check(c) for c in data)
+
+
+def _storey(data: Any) -> int:
+    if not isinstance(data, int) or isinstance(data, bool) or not 0 <= data < _MOST_STOREYS:
+        raise ValueError("a storey is not a number from 0")
+    return data
+
+
+def _elsewhere(data: Any) -> tuple[StoreyEdits, ...]:
+    if not isinstance(data, list) or not all(isinstance(entry, dict) for entry in data):
+        raise ValueError("its storeys are not a list")
+    found = {
+        _storey(entry.get("storey")): (
+            from_json(entry.get("corrections", [])),
+            _checks(entry.get("checks", [])),
+        )
+        for entry in data
+    }
+    return tuple((number, *found[number]) for number in sorted(found))
 
 
 def _check(data: Any) -> Json:

@@ -1,7 +1,11 @@
 #!/bin/sh
 # Runs the frozen program as its user would: no Python on the path, nothing of this checkout but the program.
 set -eu
+most=600 # MB
 program=$(cd "$1" && pwd)
+size=$(du -sm "$program" | cut -f1)
+echo "$1: $size MB"
+[ "$size" -lt $most ] || { echo "that is not under $most MB" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 survey=$program/_internal/floorcast_resources/sample_survey

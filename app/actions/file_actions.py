@@ -106,12 +106,14 @@ def picture(
     pane: str = "floor_plan",
     width: int = 1600,
     height: int = 1200,
+    scale_bar: bool | None = None,
 ) -> None:
-    """A picture of one pane, at any resolution."""
+    """A picture of one pane, at any resolution; with a scale bar, without, or (None) as the pane shows it."""
     if path is None:
         workbench.ui.show("screenshot")
         return
-    workbench.ui.show("picture", path=Path(path), pane=pane, width=int(width), height=int(height))
+    size = {"width": int(width), "height": int(height)}
+    workbench.ui.show("picture", path=Path(path), pane=pane, **size, scale_bar=scale_bar)
 
 
 def copy_picture(workbench: Workbench, pane: str = "floor_plan") -> None:

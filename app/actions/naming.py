@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import shapely
 
+from floorcast_app.format import number
 from floorcast_app.selection import Item
 from floorplan_core.errors import UsageError
 from floorplan_core.model import Door, LayoutPlane, Region
@@ -196,7 +197,7 @@ def names_of(word: str, chosen: Sequence[object]) -> str:
 
 def asked_number(workbench: Workbench, title: str, label: str, now: float) -> float | None:
     """Metres that a person types; None where they give up, :class:`UsageError` for what is no number."""
-    text = workbench.ui.ask_text(title, label, f"{now:.3f}")
+    text = workbench.ui.ask_text(title, label, number(now, ".3f"))
     if text is None:
         return None
     try:

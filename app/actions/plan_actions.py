@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from floorcast_app.actions.registry import Action, with_plan
@@ -64,6 +65,29 @@ def replay(workbench: Workbench, every: float = 20.0) -> None:
     workbench.replay(every)
 
 
+def show_storey(workbench: Workbench, number: int | None = None) -> None:
+    """Plan and show another storey, 0 for the lowest; asked for where none is named."""
+    highest = len(workbench.storeys) - 1
+    if number is None:
+        label = f"Storey, 0 to {highest}"
+        text = workbench.ui.ask_text("Show a storey", label, str(workbench.state.storey))
+        if text is None:
+            return
+        number = int(text) if text.strip().isdigit() else -1
+    if not 0 <= number <= highest:
+        raise UsageError(f"There is no storey {number}; the survey has storeys 0 to {highest}.")
+    workbench.document.apply(f"Show storey {number}", workbench.state.on_storey(number))
+
+
+def step_storey(workbench: Workbench, by: int) -> None:
+    """One storey up or down."""
+    show_storey(workbench, workbench.state.storey + by)
+
+
+def _has_storey(by: int) -> Callable[[Workbench], bool]:
+    return lambda w: with_plan(w) and 0 <= w.state.storey + by < len(w.storeys)
+
+
 def _replayable(workbench: Workbench) -> bool:
     session = workbench.session
     return session is not None and session.reconstruction.trajectory is not None
@@ -102,6 +126,33 @@ ACTIONS: tuple[Action, ...] = (
         "All settings as they come.",
         "",
         "rotate-ccw",
+    ),
+    Action(
+        "plan.storey",
+        "Show a storey…",
+        show_storey,
+        "Plan another storey of the survey; each keeps its own corrections and checks.",
+        "",
+        "layers",
+        lambda w: len(w.storeys) > 1,
+    ),
+    Action(
+        "plan.storey_up",
+        "Storey above",
+        lambda w: step_storey(w, 1),
+        "Plan the storey above the one that is shown.",
+        "Shift+PgUp",
+        "chevron-up",
+        _has_storey(1),
+    ),
+    Action(
+        "plan.storey_down",
+        "Storey below",
+        lambda w: step_storey(w, -1),
+        "Plan the storey below the one that is shown.",
+        "Shift+PgDown",
+        "chevron-down",
+        _has_storey(-1),
     ),
     Action(
         "plan.replay",

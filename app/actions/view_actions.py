@@ -66,6 +66,11 @@ def toggle_units(workbench: Workbench) -> None:
     workbench.view.set(units="ft-in" if workbench.view.look.units == "m" else "m")
 
 
+def toggle_scale_bar(workbench: Workbench) -> None:
+    """Show or hide the scale bar of the plan panes."""
+    workbench.view.set(scale_bar=not workbench.view.look.scale_bar)
+
+
 def toggle_theme(workbench: Workbench) -> None:
     """Light, or dark."""
     workbench.view.set(theme="dark" if workbench.view.look.theme == "light" else "light")
@@ -130,6 +135,13 @@ ACTIONS: tuple[Action, ...] = (
         toggle_units,
         "Show lengths and areas in feet and inches.",
         checked=lambda w: w.view.look.units == "ft-in",
+    ),
+    Action(
+        "view.scale_bar",
+        "Scale bar",
+        toggle_scale_bar,
+        "Show or hide the scale bar of the plan panes.",
+        checked=lambda w: w.view.look.scale_bar,
     ),
     Action(
         "view.theme",

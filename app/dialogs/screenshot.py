@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QImage, QPixmap
-from PySide6.QtWidgets import QComboBox, QFormLayout, QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QSpinBox, QWidget
 
 from floorcast_app.dialogs.base import Dialog
 from floorcast_app.panels.base import GRID, row
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from floorcast_app.main_window import MainWindow
 
 PICTURED = ("floor_plan", "planes", "free_space", "space", "evidence", "window")
+PLANS = ("floor_plan", "planes", "free_space")  # panes with a scale bar
 SIZES = (  # pixels, and what they are good for
     (1600, 1200, "Page"),
     (1920, 1080, "Screen"),
@@ -44,6 +45,8 @@ class Screenshot(Dialog):
             self.size_box.addItem(f"{tr(use)} · {width} × {height}", (width, height))
         self.size_box.addItem(tr("Own size"), None)
         self.width_box, self.height_box = self._pixels(), self._pixels()
+        self.bar = QCheckBox(tr("Scale bar"))
+        self.bar.setChecked(window.workbench.view.look.scale_bar)
         self.preview = QLabel()
         self.preview.setFixedSize(PREVIEW)
         self.preview.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -52,6 +55,7 @@ class Screenshot(Dialog):
         form.addRow(tr("Pane"), self.pane)
         form.addRow(tr("Size"), self.size_box)
         form.addRow("", row_widget(self.width_box, QLabel("×"), self.height_box))
+        form.addRow("", self.bar)
         self.body.addWidget(self.preview)
         self.body.addLayout(form)
         self.save = self.add_button(tr("Save…"), primary=True)
@@ -66,7 +70,8 @@ class Screenshot(Dialog):
 
     def picture(self) -> QImage:
         """The picture as it is asked for."""
-        return self._window.picture(self.pane.currentData(), self.width_box.value(), self.height_box.value())
+        size = self.width_box.value(), self.height_box.value()
+        return self._window.picture(self.pane.currentData(), *size, self.bar.isChecked())
 
     def draw_preview(self) -> None:
         """The same picture, small."""
@@ -91,7 +96,8 @@ class Screenshot(Dialog):
     def _small(self, id: str, width: int, height: int) -> QImage:
         """Twice the preview's size: lines and letters look as they will."""
         share = min(1.0, 2 * PREVIEW.width() / width, 2 * PREVIEW.height() / height)
-        return self._window.picture(id, round(width * share), round(height * share))
+        size = round(width * share), round(height * share)
+        return self._window.picture(id, *size, self.bar.isChecked())
 
     def _pixels(self) -> QSpinBox:
         box = QSpinBox()
@@ -103,12 +109,17 @@ class Screenshot(Dialog):
         return box
 
     def _connect(self) -> None:
-        self.pane.activated.connect(lambda _: self._soon.start(0))
+        self.pane.activated.connect(lambda _: self._pane_chosen())
+        self.bar.toggled.connect(lambda _: self._soon.start(0))
         self.size_box.activated.connect(lambda _: self._size_chosen())
         for box in (self.width_box, self.height_box):
             box.valueChanged.connect(self._typed)
         self.copy.clicked.connect(self._copy)
         self.save.clicked.connect(self._save)
+
+    def _pane_chosen(self) -> None:
+        self.bar.setEnabled(self.pane.currentData() in PLANS)
+        self._soon.start(0)
 
     def _size_chosen(self) -> None:
         size = self.size_box.currentData()
@@ -138,6 +149,8 @@ class Screenshot(Dialog):
         width, height = self.width_box.value(), self.height_box.value()
         target = path if path.suffix else path.with_suffix(".png")
         arguments = {"path": target, "pane": self.pane.currentData(), "width": width, "height": height}
+        if self.bar.isEnabled():
+            arguments["scale_bar"] = self.bar.isChecked()
         self._window.workbench.try_run("file.picture", **arguments)
 
 

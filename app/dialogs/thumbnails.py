@@ -1,4 +1,4 @@
-"""Thumbnails of recent surveys: the picture inside a project, or one kept in the user's cache."""
+"""Thumbnails of recent files: the picture inside a project, or one in the cache for a survey."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import platformdirs
-from PySide6.QtCore import QObject, QSize, Qt, QTimer
+from PySide6.QtCore import QBuffer, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QPixmap
 
 from floorplan_core.project_file import SUFFIX, read_thumbnail
@@ -36,6 +36,16 @@ def keep_thumbnail(path: Path, image: QImage) -> None:
     image.save(str(target), "PNG")
 
 
+def plan_png(window: Any) -> bytes | None:
+    """The picture as a file, for the project that is being saved; None without a plan."""
+    if window.workbench.plan is None:
+        return None
+    data = QBuffer()
+    data.open(QBuffer.OpenModeFlag.WriteOnly)
+    window.picture("floor_plan", *KEPT_SIZE).save(data, "PNG")
+    return bytes(data.data().data())
+
+
 class ThumbnailKeeper(QObject):
     """Keeps a picture of the floor plan of what the window shows, whenever it was planned or saved."""
 
@@ -56,8 +66,7 @@ class ThumbnailKeeper(QObject):
         if workbench.plan is None or survey is None:
             return
         image = self._window.picture("floor_plan", *KEPT_SIZE)
-        for path in filter(None, (survey.path, workbench.project)):
-            keep_thumbnail(path, image)
+        keep_thumbnail(survey.path, image)  # a project holds its own
 
 
 def _inside(path: Path) -> bytes | None:

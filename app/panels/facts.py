@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from floorcast_app.actions.measure_actions import check_row
-from floorcast_app.format import angle, area, count, length, percent, seconds, small
+from floorcast_app.format import angle, area, count, length, number, percent, seconds, small
 from floorcast_app.panels.by_hand import hand_note, machine_note
 from floorcast_app.panels.item_columns import facing_word
 from floorcast_app.selection import Item
@@ -156,7 +156,7 @@ def _region(plan: FloorPlan, region: Region, units: str, words: Words) -> Portra
             Fact(words("Height"), length(region.height, units), words("Floor to ceiling")),
             Fact(
                 words("Turning distance"),
-                f"{region.turning_distance:.2f}",
+                number(region.turning_distance, ".2f"),
                 words("To the unit square: a corridor where it is over the limit"),
                 setting="labels.max_room_turning",
             ),
@@ -331,7 +331,9 @@ def _segment(plan: FloorPlan, segment: LayoutSegment, units: str, words: Words) 
                 _residual(segment.residual, units),
                 words("95 % of the points lie closer than this"),
             ),
-            Fact(words("Standard error"), f"{segment.sigma * 1000:.2f} mm", words("Of its offset")),
+            Fact(
+                words("Standard error"), f"{number(segment.sigma * 1000, '.2f')} mm", words("Of its offset")
+            ),
             *(
                 Fact(words("Wall"), _plane_name(plan, p, units, words), item=Item("plane", p))
                 for p in (segment.plane,)

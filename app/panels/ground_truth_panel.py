@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QAbstractItemView, QPushButton, QTableView, QWidge
 
 from floorcast_app import icons, theme
 from floorcast_app.actions.measure_actions import check_means, check_rows
-from floorcast_app.format import small
+from floorcast_app.format import number, small
 from floorcast_app.panels.base import GRID, Panel, column, label, row
 from floorcast_app.panels.check_model import CheckModel
 from floorcast_app.panels.items_panel import ROW_HEIGHT
@@ -97,7 +97,7 @@ class GroundTruthPanel(Panel):
             return ""
         units = self.workbench.view.look.units
         text = tr("Mean of {n}: {error} · {percent} %").format(
-            n=means.count, error=small(means.mean_error, units), percent=f"{means.mean_percent:.2f}"
+            n=means.count, error=small(means.mean_error, units), percent=number(means.mean_percent, ".2f")
         )
         if means.band == "none":
             return f"{text} · {tr('worse than every LOA band')}"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from floorcast_app.format import area, length, percent, small
+from floorcast_app.format import area, length, number, percent, small
 from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane, Region, loa_band
 
 Words = Callable[[str], str]  # translates a word
@@ -60,7 +60,7 @@ REGIONS = (
     Column(
         "Turning",
         lambda r: r.turning_distance,
-        lambda r, u, w: f"{r.turning_distance:.2f}",
+        lambda r, u, w: number(r.turning_distance, ".2f"),
         tip="Turning distance to the unit square: how little it is like a room",
     ),
     Column("Doors", lambda r: len(r.doors), lambda r, u, w: str(len(r.doors))),

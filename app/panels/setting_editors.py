@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from floorcast_app import icons
+from floorcast_app.format import number
 from floorcast_app.panels.base import label, row, set_role
 from floorcast_app.panels.setting_fields import SLIDER_STEPS, SettingField
 from floorcast_app.translation import tr
@@ -107,7 +108,7 @@ class SettingEditor(QWidget):
         bounds = ""
         if field.kind in ("int", "float"):
             bounds = tr("{low} to {high}").format(
-                low=f"{field.low:g}", high=f"{field.high:g} {field.unit}".strip()
+                low=number(field.low, "g"), high=f"{number(field.high, 'g')} {field.unit}".strip()
             )
         comes = tr("comes as {value}").format(value=self._text(field.default))
         return f"{tr(field.help)}\n{field.name} · {' · '.join(filter(None, (bounds, comes)))}"

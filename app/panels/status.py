@@ -6,7 +6,7 @@ import math
 
 from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
 
-from floorcast_app.format import angle, count, length, percent, seconds
+from floorcast_app.format import angle, count, length, number, percent, seconds
 from floorcast_app.panels.base import listener_of
 from floorcast_app.panels.progress_strip import ProgressStrip
 from floorcast_app.translation import tr
@@ -47,7 +47,7 @@ class StatusBar(QStatusBar):
         if x is None or y is None:
             self.pointer.clear()
         elif units == "m":
-            self.pointer.setText(f"x {x:.3f}  y {y:.3f} m")
+            self.pointer.setText(f"x {number(x, '.3f')}  y {number(y, '.3f')} m")
         else:
             self.pointer.setText(f"x {length(x, units)}  y {length(y, units)}")
 

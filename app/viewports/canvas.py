@@ -36,6 +36,7 @@ from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
 from floorcast_app.viewports.plan_checks import check_at, paint_checks
+from floorcast_app.viewports.plan_floor_views import DimensionsView
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
 from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
@@ -46,8 +47,8 @@ from floorcast_app.viewports.plan_overlay import (
     paint_item,
     paint_marks,
     paint_pins,
-    paint_scale,
 )
+from floorcast_app.viewports.plan_scale import paint_scale
 from floorcast_app.workbench import Workbench
 
 HIT = 6.0  # pixels around a line within which it is hit
@@ -105,11 +106,12 @@ class PlanCanvas(QWidget):
         """Plan metres to pixels of this widget."""
         return Camera.of(self.workbench.view.look, self.width(), self.height())
 
-    def picture(self, width: int, height: int) -> QImage:
-        """The pane as an image of ``width`` x ``height`` pixels."""
+    def picture(self, width: int, height: int, scale_bar: bool | None = None) -> QImage:
+        """The pane as an image of ``width`` x ``height`` pixels; None: a scale bar where the look has it."""
         self._catch_up()
         image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
-        frame = Frame(Camera.of(self.workbench.view.look, width, height), theme.colours(), self._look())
+        look = self._look() if scale_bar is None else replace(self._look(), scale_bar=scale_bar)
+        frame = Frame(Camera.of(look, width, height), theme.colours(), look)
         painter = QPainter(image)
         self._paint_ground(painter, frame)
         self._paint_over(painter, frame, interactive=False)
@@ -246,7 +248,8 @@ class PlanCanvas(QWidget):
         if self.pins:
             corrected = tuple(Item(kind, id) for kind, id in getattr(source.plan, "corrected", ()))
             paint_pins(painter, frame, source, corrected)
-        paint_scale(painter, frame)
+        shown = self._drawing.views.get("dimensions") if "dimensions" in frame.look.layers else None
+        paint_scale(painter, frame, source, shown.model.rows if isinstance(shown, DimensionsView) else ())
         paint_compass(painter, frame, source)
         if interactive:
             self._paint_tool(painter, frame)

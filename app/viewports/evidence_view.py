@@ -221,7 +221,7 @@ class EvidenceView(QWidget):
             painter.setPen(pen(c.line, 1.0))
             for track in tracks:
                 painter.drawLine(QPointF(x, track.top()), QPointF(x, track.bottom()))
-            draw_text(painter, f"{k * step / unit:g}", (x, bottom + 11), SMALL, colour(c.muted))
+            draw_text(painter, format.number(k * step / unit, "g"), (x, bottom + 11), SMALL, colour(c.muted))
         name = "yx"[evidence.facing.axis]
         text = f"{name}, {'ft' if unit != 1.0 else 'm'}"
         draw_text(painter, text, (tracks[0].center().x(), bottom + 25), SMALL, colour(c.muted))
@@ -242,7 +242,14 @@ class EvidenceView(QWidget):
         ):
             at = (track.right() - 18, track.top() + 9)
             draw_text(
-                painter, f"{values[k] + 0.0:.2f}", at, SMALL, colour(c.accent), 600, False, colour(c.panel)
+                painter,
+                format.number(values[k] + 0.0, ".2f"),
+                at,
+                SMALL,
+                colour(c.accent),
+                600,
+                False,
+                colour(c.panel),
             )
 
     def _tracks(self, area: QRectF) -> list[QRectF]:

@@ -133,14 +133,14 @@ class DimensionsView:
     """Rows of lengths beside the plan at a constant distance in pixels, and the widths of arms."""
 
     def __init__(self, model: DimensionsLayer) -> None:
-        self._model = model
+        self.model = model
 
     def paint(self, painter: QPainter, frame: Frame) -> None:
         """What has no room for its number is left out."""
-        for row in self._model.rows:
+        for row in self.model.rows:
             for span in row.spans:
                 _paint_span(painter, frame, row, span.start, span.end)
-        for width in self._model.widths:
+        for width in self.model.widths:
             _paint_width(painter, frame, width)
 
 

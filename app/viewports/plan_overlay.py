@@ -24,13 +24,11 @@ from floorcast_app.viewports.plan_frame import (
     path_of,
     pen,
     plan_pen,
-    round_length,
     text_size,
 )
 from floorcast_app.viewports.plan_observed_views import across
+from floorcast_app.viewports.plan_scale import MARGIN, bar_length
 
-BAR = 150.0  # pixels that the scale bar may take
-MARGIN = 16.0  # pixels from the edges
 COMPASS = 15.0  # pixels, radius
 CROSS = 9.0  # pixels, half the linked cursor
 PIN = 5.0  # pixels, radius of a pin's head
@@ -116,28 +114,6 @@ def paint_cross(painter: QPainter, frame: Frame, at: Point) -> None:
         for sign in (-1, 1):
             near, far = 3 * sign, CROSS * sign
             painter.drawLine(QPointF(x + near * dx, y + near * dy), QPointF(x + far * dx, y + far * dy))
-
-
-def bar_length(frame: Frame) -> tuple[float, float]:
-    """Of the scale bar: metres or feet, and pixels."""
-    unit = format.METRES_PER_FOOT if frame.look.units == "ft-in" else 1.0
-    value = round_length(BAR / frame.camera.scale / unit)
-    return value, value * unit * frame.camera.scale
-
-
-def paint_scale(painter: QPainter, frame: Frame) -> None:
-    """A bar of a round length at the lower left."""
-    feet = frame.look.units == "ft-in"
-    value, width = bar_length(frame)
-    x, y = MARGIN, frame.camera.height - MARGIN
-    text = f"{value:g} ft" if feet else (f"{value * 100:g} cm" if value < 1 else f"{value:g} m")
-    box = QRectF(x - 8, y - 24, width + 16, 32)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour(frame.colours.panel, 0.93))
-    painter.drawRoundedRect(box, 5, 5)
-    painter.setPen(pen(frame.colours.text, 1.6))
-    painter.drawPolyline([QPointF(x, y - 5), QPointF(x, y), QPointF(x + width, y), QPointF(x + width, y - 5)])
-    draw_text(painter, text, (x + width / 2, y - 11), SMALL, colour(frame.colours.text), 500)
 
 
 def paint_compass(painter: QPainter, frame: Frame, source: PlanSource) -> None:

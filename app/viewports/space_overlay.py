@@ -11,6 +11,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QLinearGradient, QPainter, QPen
 
 from floorcast_app import theme
 from floorcast_app.format import area
+from floorcast_app.format import number as _number
 from floorcast_app.rendering import ramps
 from floorcast_app.rendering.camera import Camera, camera_of
 from floorcast_app.rendering.cloud import Paint, facing_colours
@@ -171,7 +172,7 @@ def _small(width: int, height: int) -> float:
 
 def _grid_text(look: Look) -> str:
     step = shown_grid_step(look)
-    number = f"{step / FOOT:g} ft" if look.units == "ft-in" else f"{step:g} m"
+    number = f"{_number(step / FOOT, 'g')} ft" if look.units == "ft-in" else f"{_number(step, 'g')} m"
     return tr("Grid {step}").format(step=number)
 
 
@@ -187,7 +188,10 @@ def _ramp(painter: QPainter, heights: tuple[float, float], look: Look, plate: QR
     painter.drawRoundedRect(bar, 2, 2)
     unit, name = (FOOT, "ft") if look.units == "ft-in" else (1.0, "m")
     low, high = (round(value / unit, 1) + 0.0 for value in heights)
-    for y, text in ((bar.top() - 2, f"{high:.1f} {name}"), (bar.bottom() - 14, f"{low:.1f} {name}")):
+    for y, text in (
+        (bar.top() - 2, f"{_number(high, '.1f')} {name}"),
+        (bar.bottom() - 14, f"{_number(low, '.1f')} {name}"),
+    ):
         rect = QRectF(bar.right() + 8, y, 48, 16)
         _text(painter, rect, text, holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
 

@@ -1608,8 +1608,20 @@
    <translation>Neu planen</translation>
   </message>
   <message>
+   <source>Plan another storey of the survey; each keeps its own corrections and checks.</source>
+   <translation>Ein anderes Geschoss der Aufnahme planen; jedes behält seine eigenen Korrekturen und Kontrollmaße.</translation>
+  </message>
+  <message>
    <source>Plan less laser meter</source>
    <translation>Plan minus Lasermessgerät</translation>
+  </message>
+  <message>
+   <source>Plan the storey above the one that is shown.</source>
+   <translation>Das Geschoss über dem gezeigten planen.</translation>
+  </message>
+  <message>
+   <source>Plan the storey below the one that is shown.</source>
+   <translation>Das Geschoss unter dem gezeigten planen.</translation>
   </message>
   <message>
    <source>Planarity</source>
@@ -1944,6 +1956,10 @@
    <translation>Sagen, wo die Aufnahme dieses Projekts jetzt liegt.</translation>
   </message>
   <message>
+   <source>Scale bar</source>
+   <translation>Maßstab</translation>
+  </message>
+  <message>
    <source>Screen</source>
    <translation>Bildschirm</translation>
   </message>
@@ -2108,6 +2124,14 @@
    <translation>Ansicht zeigen…</translation>
   </message>
   <message>
+   <source>Show a storey</source>
+   <translation>Geschoss zeigen</translation>
+  </message>
+  <message>
+   <source>Show a storey…</source>
+   <translation>Geschoss zeigen…</translation>
+  </message>
+  <message>
    <source>Show it in the panes</source>
    <translation>In den Ansichten zeigen</translation>
   </message>
@@ -2118,6 +2142,10 @@
   <message>
    <source>Show or hide</source>
    <translation>Zeigen oder ausblenden</translation>
+  </message>
+  <message>
+   <source>Show or hide the scale bar of the plan panes.</source>
+   <translation>Den Maßstab der Planansichten zeigen oder ausblenden.</translation>
   </message>
   <message>
    <source>Show or hide: dimensions.</source>
@@ -2150,6 +2178,10 @@
   <message>
    <source>Show or hide: {0}.</source>
    <translation>Zeigen oder ausblenden: {0}.</translation>
+  </message>
+  <message>
+   <source>Show storey {0}</source>
+   <translation>Geschoss {0} zeigen</translation>
   </message>
   <message>
    <source>Show the evidence on the other face of the wall</source>
@@ -2254,6 +2286,26 @@
   <message>
    <source>Stop what runs; the last plan stays.</source>
    <translation>Anhalten, was läuft; der letzte Plan bleibt.</translation>
+  </message>
+  <message>
+   <source>Storey</source>
+   <translation>Geschoss</translation>
+  </message>
+  <message>
+   <source>Storey 0</source>
+   <translation>Geschoss 0</translation>
+  </message>
+  <message>
+   <source>Storey above</source>
+   <translation>Geschoss darüber</translation>
+  </message>
+  <message>
+   <source>Storey below</source>
+   <translation>Geschoss darunter</translation>
+  </message>
+  <message>
+   <source>Storey {number}, {height} up</source>
+   <translation>Geschoss {number}, {height} höher</translation>
   </message>
   <message>
    <source>Storeys</source>
@@ -2480,6 +2532,10 @@
    <translation>Der Schnitt der Voxelkarte, der die Grundmenge F_h gibt.</translation>
   </message>
   <message>
+   <source>The storey that is shown; each keeps its own corrections and checks.</source>
+   <translation>Das gezeigte Geschoss; jedes behält seine eigenen Korrekturen und Kontrollmaße.</translation>
+  </message>
+  <message>
    <source>The timeline large.</source>
    <translation>Die Zeitleiste groß.</translation>
   </message>
@@ -2546,6 +2602,10 @@
   <message>
    <source>There is no step {0}: the history has the steps 0 to {1}.</source>
    <translation>Es gibt keinen Schritt {0}: Der Verlauf hat die Schritte 0 bis {1}.</translation>
+  </message>
+  <message>
+   <source>There is no storey {0}; the survey has storeys 0 to {1}.</source>
+   <translation>Es gibt kein Geschoss {0}; die Aufnahme hat die Geschosse 0 bis {1}.</translation>
   </message>
   <message>
    <source>There is no survey to look for.</source>

@@ -62,7 +62,7 @@ def test_actions_and_sentences_are_translated(german: None) -> None:
     opening = next(a for a in all_actions() if a.id == "file.open")
     assert translation.tr_action(opening)[0] == "Öffnen…"
     assert translation.tr_text("Saved office.floorcast.") == "office.floorcast gespeichert."
-    assert translation.tr_text("Set doors.max_width to 1.6") == "doors.max_width auf 1.6 setzen"
+    assert translation.tr_text("Set doors.max_width to 1.6") == "doors.max_width auf 1,6 setzen"
     guess = "Coordinates are taken as metres (floor to ceiling is then 2.65 m); force it with input.unit."
     assert translation.tr_text(guess).startswith("Die Koordinaten gelten als Meter (vom Boden zur Decke")
     assert translation.tr_text("Nothing of the kind.") == "Nothing of the kind."
@@ -75,6 +75,22 @@ def test_qt_itself_speaks_german_where_its_translation_is_installed(german: None
     if not (folder / "qtbase_de.qm").exists():
         pytest.skip("this build of Qt brings no translations")
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
+
+
+def test_numbers_have_a_comma_in_german_and_a_point_in_files(german: None, tmp_path: Path) -> None:
+    from PySide6.QtWidgets import QDoubleSpinBox
+
+    from floorcast_app.actions.measure_actions import table_csv
+    from floorcast_app.format import area, count, length, parse_length
+    from floorcast_app.state import Check
+
+    assert (length(3.2), area(1234.5), count(18204)) == ("3,200 m", "1.234,50 m²", "18.204")
+    assert parse_length(length(1234.5)) == parse_length("1.234,500") == 1234.5
+    assert translation.tr_text("Measure 3.412 m").endswith("3,412 m messen")
+    spin = QDoubleSpinBox()
+    spin.setValue(2.5)
+    assert spin.text() == "2,50"
+    assert "3.4120" in table_csv((Check("c1", (0.0, 0.0), (3.4, 0.0), 3.412),))
 
 
 def test_english_is_left_as_it_is(qapp: QApplication) -> None:

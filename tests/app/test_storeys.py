@@ -1,0 +1,111 @@
+"""Several storeys: each is planned when it is shown, and keeps its own corrections, also in the project."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from floorcast_app.state import Check, DocumentState, StoreyEdits
+from floorcast_app.workbench import Workbench
+from floorplan_core.errors import UsageError
+from floorplan_core.model.corrections import NameRegion
+from tests.app.pump import make_workbench, settle
+from tests.box_world import room, stations, survey
+
+SIZES = ((4.0, 5.0), (6.0, 3.0))  # metres of the rooms above each other
+STOREY = 3.2  # metres from floor to floor
+
+
+@pytest.fixture(scope="module")
+def stack(tmp_path_factory: pytest.TempPathFactory) -> object:
+    """A folder with a survey of two storeys: points with their scans, and a trajectory."""
+    folder = tmp_path_factory.mktemp("stack")
+    rows, poses = [], []
+    for level, size in enumerate(SIZES):
+        scan = survey(room(*size), stations(*size), rays=(160, 50))
+        points = scan.points + np.array([0.0, 0.0, level * STOREY])
+        rows.append(np.column_stack([points, scan.scan_id + len(poses)]))
+        for pose in scan.poses:
+            poses.append(pose[:3, 3] + np.array([0.0, 0.0, level * STOREY]))
+    table = np.concatenate(rows)
+    head = ("ply", "format ascii 1.0", f"element vertex {len(table)}")
+    names = ("float x", "float y", "float z", "int scan_id")
+    header = "\n".join([*head, *(f"property {name}" for name in names), "end_header"])
+    np.savetxt(folder / "points.ply", table, "%.4f %.4f %.4f %d", header=header, comments="")
+    lines = [f"{k} {x:.4f} {y:.4f} {z:.4f} 0 0 0 1" for k, (x, y, z) in enumerate(poses)]
+    (folder / "trajectory.tum").write_text("\n".join(lines) + "\n")
+    return folder
+
+
+@pytest.fixture
+def bench(stack) -> Workbench:
+    made = make_workbench()
+    made.open_survey(stack)
+    settle(made)
+    assert made.plan is not None, made.ui.told
+    return made
+
+
+def test_a_storey_is_planned_when_it_is_shown(bench):
+    assert [s.number for s in bench.storeys] == [0, 1]
+    assert bench.plan.regions[0].area == pytest.approx(20, abs=0.2)
+    bench.run("plan.storey_up")
+    settle(bench)
+    assert (bench.state.storey, bench.plan.storey) == (1, 1)
+    assert bench.plan.regions[0].area == pytest.approx(18, abs=0.2)
+    with pytest.raises(UsageError, match="not possible now"):
+        bench.run("plan.storey_up")
+    with pytest.raises(UsageError, match=r"storey 2; the survey has storeys 0 to 1"):
+        bench.run("plan.storey", number=2)
+    bench.document.undo()
+    settle(bench)
+    assert bench.plan.storey == 0
+
+
+def test_corrections_stay_with_their_storey(bench, tmp_path):
+    bench.run("correct.rename", region=bench.plan.regions[0].id, name="Shop")
+    settle(bench)
+    bench.run("plan.storey", number=1)
+    settle(bench)
+    assert bench.state.corrections == ()
+    assert bench.plan.regions[0].name != "Shop"
+    bench.run("correct.rename", region=bench.plan.regions[0].id, name="Flat")
+    settle(bench)
+    bench.save_project(tmp_path / "house.floorcast")
+    again = make_workbench()
+    again.open_project(tmp_path / "house.floorcast")
+    settle(again)
+    assert again.state.on_storey(0).corrections == bench.state.on_storey(0).corrections != ()
+    assert again.state.elsewhere == bench.state.elsewhere
+    assert again.plan.regions[0].name == "Flat"
+    again.run("plan.storey_down")
+    settle(again)
+    assert again.plan.regions[0].name == "Shop"
+
+
+def test_storeys_that_say_nothing_are_not_kept():
+    state = DocumentState(corrections=(NameRegion((0, 0), "a"),), checks=(Check("c1", (0, 0), (1, 0)),))
+    up = state.on_storey(1)
+    assert (up.storey, up.corrections, up.checks) == (1, (), ())
+    assert up.elsewhere == (StoreyEdits(0, state.corrections, state.checks),)
+    assert up.on_storey(2).elsewhere == up.elsewhere
+    assert up.on_storey(2).on_storey(0) == state
+
+
+def test_the_chooser_is_there_where_it_is_needed(qtbot, bench, sample_workbench):
+    from PySide6.QtCore import Qt
+
+    from floorcast_app.panels.storey_chooser import StoreyChooser
+
+    chooser = StoreyChooser(bench)
+    qtbot.addWidget(chooser)
+    assert chooser.wanted
+    assert [chooser.itemData(k) for k in range(chooser.count())] == [1, 0]
+    assert chooser.currentData() == 0
+    chooser.show()
+    qtbot.keyClick(chooser, Qt.Key.Key_Up)
+    settle(bench)
+    assert bench.plan.storey == 1
+    alone = StoreyChooser(sample_workbench)
+    qtbot.addWidget(alone)
+    assert not alone.wanted
