@@ -35,9 +35,11 @@ class Window(QMainWindow):
         self.workbench = workbench
         self.told: list[str] = []
         self.drawn: list[tuple[str, int, int]] = []
+        self.bars: list[bool | None] = []
 
-    def picture(self, pane: str, width: int, height: int) -> QImage:
+    def picture(self, pane: str, width: int, height: int, scale_bar: bool | None = None) -> QImage:
         self.drawn.append((pane, width, height))
+        self.bars.append(scale_bar)
         image = QImage(width, height, QImage.Format.Format_RGB32)
         image.fill(QColor("#336699"))
         return image
@@ -179,7 +181,19 @@ def test_a_picture_is_saved_through_the_action(
     dialog = screenshot.show(window)  # type: ignore[arg-type]
     qtbot.mouseClick(dialog.save, LEFT)
     arguments = {"path": tmp_path / "plan.png", "pane": "floor_plan", "width": 1600, "height": 1200}
-    assert ran == [("file.picture", arguments)]
+    assert ran == [("file.picture", {**arguments, "scale_bar": True})]
+    dialog.close()
+
+
+def test_the_scale_bar_is_switched_for_plans_only(window: Window, qtbot: QtBot) -> None:
+    dialog = screenshot.show(window)  # type: ignore[arg-type]
+    dialog.bar.click()
+    qtbot.mouseClick(dialog.copy, LEFT)
+    assert window.bars[-1] is False
+    qtbot.keyClicks(dialog.pane, "3D")
+    dialog.pane.activated.emit(dialog.pane.currentIndex())
+    assert dialog.pane.currentData() == "space"
+    assert not dialog.bar.isEnabled()
     dialog.close()
 
 
