@@ -45,7 +45,9 @@ from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.corrections import Remarks, in_plan
 from floorplan_core.stages.corrections_doors import correct_doors
 from floorplan_core.stages.corrections_regions import Surroundings, correct_names, correct_shapes
+from floorplan_core.stages.corrections_walls import correct_walls
 from floorplan_core.stages.grid_map import MapFloor, find_floor
+from floorplan_core.stages.grid_map_corrections import correct_map, mark_planes
 from floorplan_core.stages.grid_map_doors import grid_doors
 from floorplan_core.stages.grid_map_outlines import askew_share, outline, outline_region
 from floorplan_core.stages.grid_map_passages import find_passages
@@ -93,7 +95,7 @@ def plan_grid_map(
 ) -> FloorPlan:
     """The floor plan of a grid map; raises :class:`NoPlanError` where there is none.
 
-    :param corrections: what a person said against the machine; walls of a map cannot be corrected.
+    :param corrections: what a person said against the machine; those of walls change the cells of the map.
     :param memory: what an earlier plan of the same map made; only what depends on a change is made again.
     :param names: gives the regions the names that they had before.
     """
@@ -102,6 +104,7 @@ def plan_grid_map(
 
     ground = stage("frame", lambda: find_floor(grid_map, config), config.frame, config.maps)
     say = stage.correct("frame", lambda: in_plan(corrections, ground.frame), ground, tuple(corrections))
+    ground, corrected, said = _corrected_walls(stage, ground, say.walls, config)
     passages, spaces = stage(
         "doors", lambda: find_passages(ground.floor, ground.grid.cell, config.maps), ground, config.maps
     )
@@ -118,16 +121,19 @@ def plan_grid_map(
     segments, planes = stage(
         "planes", lambda: wall_planes(segments, grid.cell, config), segments, config.planes, config.segments
     )
+    planes = stage.correct("marks", lambda: mark_planes(planes, corrected, grid.cell), planes, corrected)
+    walls = tuple(p for p in planes if p.by_hand != "hidden")
     machine, askew = stage(
         "doors",
-        lambda: grid_doors(passages, planes, ground.floor, grid, config.doors),
+        lambda: grid_doors(passages, walls, ground.floor, grid, config.doors),
         *(passages, planes, ground, grid, config.doors),
     )
-    doors, _, said = stage.correct(
+    doors, _, remarks = stage.correct(
         "doors",
         lambda: correct_doors(machine, planes, say.doors, config.doors, lambda: machine),
         *(machine, planes, say.doors, config.doors),
     )
+    said += remarks
     problems = stage(
         "candidates",
         lambda: space_problems(spaces, ground.floor, grid, boundary, segments, rows, planes, config),
@@ -146,7 +152,7 @@ def plan_grid_map(
         lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
         *(regions, say.shapes, *found, config.regions),
     )
-    said += remarks + _walls_stay(say.walls)
+    said += remarks
     regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
     if not regions:
         raise NoPlanError(
@@ -189,15 +195,22 @@ def _with_universe(grid: OccupancyGrid, spaces: NDArray[np.int32]) -> OccupancyG
     return replace(grid, universe=(spaces > 0) & (grid.states == FREE))
 
 
-def _walls_stay(corrections: Sequence[Correction]) -> Remarks:
-    """A map's spaces are its cells: walls by hand would not change them."""
-    if not corrections:
-        return Remarks()
-    return Remarks(
-        warnings=(
-            f"{len(corrections)} corrections of walls have no effect on a grid map: split or merge regions.",
-        )
-    )
+def _corrected_walls(
+    stage: StageRunner, ground: MapFloor, said: Sequence[Correction], config: Config
+) -> tuple[MapFloor, tuple[LayoutPlane, ...], Remarks]:
+    """The map as corrections of walls say it is, the machine's planes with them, and what came of them."""
+    if not said:
+        return ground, (), Remarks()
+
+    def work() -> tuple[MapFloor, tuple[LayoutPlane, ...], Remarks]:
+        _, spaces = find_passages(ground.floor, ground.grid.cell, config.maps)
+        grid = _with_universe(ground.grid, spaces)
+        segments, _ = wall_segments(find_boundary(spaces, ground.floor, grid), grid, config)
+        _, machine = wall_planes(segments, grid.cell, config)
+        corrected, remarks = correct_walls(machine, said)
+        return correct_map(ground, machine, corrected), corrected, remarks
+
+    return stage.correct("walls", work, ground, tuple(said), config.maps, config.segments, config.planes)
 
 
 def _solve(problem: SpaceProblem, config: Config, observer: Observer) -> _Solved:

@@ -144,7 +144,7 @@ def test_a_survey_of_one_storey_says_so(session):
 
 
 def test_a_grid_map_is_a_session_too(tmp_path):
-    """Read at once; labels, names, merges and splits work, walls say that they do not."""
+    """Read at once; labels, names, merges and splits work, and a wall that is none joins its rooms."""
     from PIL import Image
 
     image = np.full((120, 200), 205, dtype=np.uint8)
@@ -163,9 +163,9 @@ def test_a_grid_map_is_a_session_too(tmp_path):
     inside = [r.polygon.representative_point() for r in made.regions]
     at = [local(made, p.x, p.y) for p in inside]
     assert stages_run(session, Config(), (c.NameRegion(at[0], "Hall"),))[1] == []
-    named = plan(session, c.NameRegion(at[0], "Hall"), c.HidePlane(c.PlaneAt(at[0], (1.0, 0.0))))
+    named = plan(session, c.NameRegion(at[0], "Hall"), c.MovePlane(c.PlaneAt(at[0], (1.0, 0.0)), at[1]))
     assert named.regions[0].name == "Hall"
-    assert any("no effect on a grid map" in text for text in named.warnings)
+    assert any("not there any more" in text for text in named.warnings)
     merged = plan(session, c.MergeRegions(tuple(at)))
     assert_valid(merged)
     assert len(merged.regions) == 1
