@@ -62,7 +62,7 @@ def find_floor(grid_map: GridMap, config: Config) -> MapFloor:
     if support < config.frame.min_support and config.frame.yaw_deg is None:
         yaw = 0.0  # no two directions to speak of: the map stays as it was drawn
     frame = ManhattanFrame(
-        frames._rotation_about_z(-grid_map.yaw - yaw), grid_map.yaw + yaw, 0.0, support, length, 0.0, None
+        frames.turned_by(-grid_map.yaw - yaw), grid_map.yaw + yaw, 0.0, support, length, 0.0, None
     )
     grid = _turned(grid_map, yaw)
     shift = frame.rotation[:2, :2] @ np.array(grid_map.origin)
@@ -84,7 +84,7 @@ def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, fl
     if config.yaw_deg is not None:
         yaw = float(frames._wrap(math.radians(config.yaw_deg)))
     else:
-        yaw = _sharpened(rings, frames._strongest_direction(angle, length), config)
+        yaw = _sharpened(rings, frames.strongest_direction(angle, length), config)
     near = np.abs(frames._wrap(angle - yaw)) < math.radians(config.tolerance_deg)
     return (0.0 if abs(yaw) < _EXACT else yaw), float(length[near].sum() / length.sum()), metres
 
@@ -124,7 +124,7 @@ def _turned(grid_map: GridMap, yaw: float) -> OccupancyGrid:
     states, cell = grid_map.states, grid_map.resolution
     if yaw == 0.0:
         return OccupancyGrid(np.zeros(2), cell, states, states == FREE, 0.0)
-    turn = frames._rotation_about_z(-yaw)[:2, :2]
+    turn = frames.turned_by(-yaw)[:2, :2]
     ny, nx = states.shape
     corners = np.array([[0, 0], [nx, 0], [0, ny], [nx, ny]], dtype=np.float64) @ turn.T
     low = np.floor(corners.min(axis=0)) - _MARGIN
