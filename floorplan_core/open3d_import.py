@@ -5,7 +5,7 @@ halves the time, and lets the frozen program do without both.
 
 In the frozen program Open3D's library, a quarter of the whole, lies packed: few people need it, and it is not
 needed to start. It is unpacked into the user's cache the first time, and linked from there before the import,
-which then takes the library that is loaded already (docs/decisions/0029-frozen-size.md).
+which then takes the library that is loaded already (docs/decisions/0031-frozen-size.md).
 """
 
 from __future__ import annotations
