@@ -30,6 +30,7 @@ from floorplan_core.stages.corrections_doors import correct_doors, follow_planes
 from floorplan_core.stages.corrections_regions import Surroundings, correct_shapes
 from floorplan_core.stages.corrections_walls import correct_walls, still_walls
 from floorplan_core.stages.doors import find_doors
+from floorplan_core.stages.guessed_viewpoints import looked_around
 from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.narrowings import find_openings
@@ -38,6 +39,7 @@ from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.stages.wall_lines import bridge_lines
 from floorplan_core.steps import StageRunner
 
 
@@ -78,11 +80,20 @@ def lay_out(
         *(segments, rows, evidence, parts, config.doors),
     )
     planes = stage("planes", lambda: close_corners(remove_beams(planes, *beams)), planes, beams)
-    machine = stage("planes", lambda: mark_recesses(planes, parts), planes, parts)
+    around = stage.correct("viewpoints", lambda: looked_around(evidence), evidence)
+    machine = stage(
+        "planes",
+        lambda: mark_recesses(bridge_lines(planes, around, config.doors), parts),
+        *(planes, around, config.doors, parts),
+    )
     planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
 
     seen = still_walls(machine, planes)
-    doors = stage("doors", lambda: find_openings(seen, evidence, config.doors), seen, evidence, config.doors)
+    doors = stage(
+        "doors",
+        lambda: find_openings(seen, evidence, around, config.doors),
+        *(seen, evidence, around, config.doors),
+    )
     doors, planes, remarks = stage.correct(
         "doors",
         lambda: _corrected_doors(doors, planes, machine, say.doors, evidence, config.doors),
@@ -91,8 +102,8 @@ def lay_out(
     said += remarks
     grid = stage(
         "occupancy",
-        lambda: _within(slice_map(evidence, planes, doors, config.occupancy), cells),
-        *(evidence, planes, doors, config.occupancy),
+        lambda: _within(slice_map(around, planes, doors, config.occupancy), cells),
+        *(around, planes, doors, config.occupancy),
     )
     walls, paired = blockers(planes, doors), pairable(planes, parts)
     layout = (planes, doors, grid, parts, config.candidates)

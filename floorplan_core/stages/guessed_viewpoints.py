@@ -7,12 +7,14 @@ what it would have seen from there, on the way to a surface that really was seen
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.columns import LEVEL, height_mask
 from floorplan_core.geometry.virtual_scans import directions, seen_free
-from floorplan_core.model.evidence import Bits
+from floorplan_core.model.evidence import Bits, Evidence
 
 _EYE = 1.2  # m above the floor
 _CLEAR = 0.4  # m of free space around a place where a sensor may have stood
@@ -21,6 +23,13 @@ _SPACING = 1.0  # m between two such places
 _MOST = 150  # of them; more are thinned out
 _REACH = 10.0  # m
 _AZIMUTHS, _ELEVATIONS, _STEEPEST = 720, 40, 0.8  # rays of a place; radians up and down
+
+
+def looked_around(evidence: Evidence) -> Evidence:
+    """The evidence with what its wide places would have seen, where free space is inferred; else as it is."""
+    if not evidence.inferred:
+        return evidence
+    return replace(evidence, free=seen_from_the_middle(evidence.free, evidence.occupied, evidence.cell))
 
 
 def seen_from_the_middle(free: Bits, occupied: Bits, cell: float) -> Bits:

@@ -20,6 +20,7 @@ from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.door_apertures import shows_lintels
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.necks import find_necks
+from floorplan_core.stages.wall_lines import line_doors
 
 Float = NDArray[np.float64]
 
@@ -34,12 +35,17 @@ _CONFIDENCE = 0.6  # an opening that only the plan shows, no lintel
 
 
 def find_openings(
-    planes: tuple[LayoutPlane, ...], evidence: Evidence, config: DoorsConfig
+    planes: tuple[LayoutPlane, ...], evidence: Evidence, around: Evidence, config: DoorsConfig
 ) -> tuple[Door, ...]:
-    """The doors, and the gaps between wall ends that part rooms without a lintel."""
+    """The doors, and the gaps between wall ends that part rooms without a lintel.
+
+    :param around: the evidence with what may have been seen where that was guessed; for single walls it does
+        not count, since through a hole in the data much may have been seen.
+    """
     doors = find_doors(planes, evidence, config)
     if not shows_lintels([p.profile for p in planes if p.profile]):
         return find_necks(planes, doors, evidence, config)
+    doors += line_doors(planes, doors, around, config)
     return (*doors, *find_narrowings(planes, doors, config))
 
 

@@ -46,6 +46,7 @@ _SHARE, _WIDE_SHARE = 0.3, 0.45  # of wall in line with a door, with an opening,
 _LOOK = 5.0  # m of wall in line that count
 _TUNNEL, _BEYOND = 0.8, 0.8  # m: thickest wall, cabinets beside the door included; stretch that is measured
 _PASSAGE, _SAME_WIDTH = 4.0, 0.6  # m ahead over which a way on this narrow is a corridor, chord to width
+_CORRIDOR = 3.5  # m: what is wider is no corridor
 _ROOM, _ROOM_DEPTH, _JAMB = 0.4, 3.5, 0.3  # a corridor ends at a room this wide and deep, between jambs (m)
 _FAR = 20.0  # m, the farthest that one looks ahead
 _NOWHERE = 1e9  # m, beyond any building
@@ -233,7 +234,8 @@ def _in_wall(chord: _Chord) -> bool:
 def _is_passed_by(chord: _Chord, near: Sequence[float], far: Sequence[float], ahead: Sequence[float]) -> bool:
     """True for a chord through which a corridor goes on, unless it ends there, between jambs, at a room."""
     for this, other in ((0, 1), (1, 0)):
-        narrow = min(near[this], far[this]) > _SAME_WIDTH and ahead[this] >= _PASSAGE
+        width = chord.width / max(far[this], 1e-9)
+        narrow = min(near[this], far[this]) > _SAME_WIDTH and width <= _CORRIDOR and ahead[this] >= _PASSAGE
         room = far[other] <= _ROOM and ahead[other] >= _ROOM_DEPTH and min(chord.flanks) >= _JAMB
         if narrow and not room:
             return True

@@ -3,13 +3,11 @@
 In: voxel columns and the wall runs of the planes. Out: :class:`OccupancyGrid`. Rays leave a building through
 windows and glass: the free cells out there must not drive the cover. Patches of free cells, cut apart by the
 walls, belong to the universe if the sensor was in them, or if enough of them lies under ceiling (over floor
-where the survey shows no ceiling). Where no viewpoint told free space, it is also looked at from its wide
-places (:mod:`floorplan_core.stages.guessed_viewpoints`). Cost: linear in cells.
+where the survey shows no ceiling). Where no viewpoint told free space, the columns hold what was to be seen
+from their wide places (:mod:`floorplan_core.stages.guessed_viewpoints`). Cost: linear in cells.
 """
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +18,6 @@ from floorplan_core.geometry.columns import LEVEL, height_mask
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
-from floorplan_core.stages.guessed_viewpoints import seen_from_the_middle
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -41,10 +38,6 @@ def slice_map(
     evidence: Evidence, planes: tuple[LayoutPlane, ...], doors: tuple[Door, ...], config: OccupancyConfig
 ) -> OccupancyGrid:
     """Sample the voxel map and keep the free cells that the cover has to explain."""
-    if evidence.inferred:
-        evidence = replace(
-            evidence, free=seen_from_the_middle(evidence.free, evidence.occupied, evidence.cell)
-        )
     height = _best_height(evidence) if config.slice_height is None else config.slice_height
     level = min(int(height / LEVEL), 60)
     free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
