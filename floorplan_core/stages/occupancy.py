@@ -57,7 +57,7 @@ def _open_floor(evidence: Evidence) -> Mask:
     """Cells whose floor was seen and above it something free: through a door a sensor looks down on floor."""
     if evidence.inferred:  # the free space was made of the floor there
         return np.zeros(evidence.shape, dtype=bool)
-    return _floor_cells(evidence) & ((evidence.free & height_mask(*_WALKED)) != 0)
+    return np.asarray(_floor_cells(evidence) & ((evidence.free & height_mask(*_WALKED)) != 0))
 
 
 def _best_height(evidence: Evidence) -> float:

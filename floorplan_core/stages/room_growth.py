@@ -4,8 +4,10 @@ What closes a glimpsed room are speculated planes at the edge of what was seen, 
 of its true walls. These rules complete it, each only over space that nothing seen contradicts: a notch
 between guessed sides is filled; a guessed side goes out to the next wall or region ahead, one wall's
 thickness before it where only the other face was seen; where there is none, to the next plane of the building
-that faces the same way; where nothing is known, to the usual width of the building's rooms. In and out:
-disjoint polygons. Cost: guessed sides times walls.
+that faces the same way; where nothing is known, to the usual width of the building's rooms. A side that was
+borrowed from a far plane comes back first to what was seen, where a room would be deeper beyond that than
+rooms are; one that stops short of a wall ahead goes on to it where the strip between has no door and is too
+narrow for a room. In and out: disjoint polygons. Cost: guessed sides times walls.
 """
 
 from __future__ import annotations
@@ -18,12 +20,14 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.masks import label_patches
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
 from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 
 Float = NDArray[np.float64]
+Bool = NDArray[np.bool_]
 
 _REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
 _BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
@@ -33,8 +37,11 @@ _WALL = 0.3  # m of wall that counts
 _FACES = 0.3  # share of a side that a wall ahead must face to close it
 _KNOWN = 0.25  # share of the sides around a notch that may have been seen
 _OPEN = 0.05  # share of cells in the new part that may have been seen free and yet taken for no room
+_CRUMB = 0.5  # m2 of free cells in no room: less is a few stray rays, and no open air
 _WHOLE, _ENOUGH = 0.8, 3  # share of the boundary that was seen of a whole room; rooms that tell what is usual
 _LONG = 2.0  # times the usual width: a longer side is no room's
+_STRIP = 0.4  # of the usual width: a strip without a door that is no wider is no room of its own
+_BESIDE = 0.3  # m between a strip of floor and the middle of a wall with a door to it
 _EXACT = 1e-6  # m
 
 
@@ -46,6 +53,7 @@ class Frontier:
     at: float  # metres, its offset
     low: float  # metres along it
     high: float
+    borrowed: bool = False  # it lies on a plane of the building, of which nothing was seen here
 
     @property
     def out(self) -> int:
@@ -83,8 +91,10 @@ class RoomGrower:
         min_support: float,
     ) -> None:
         self._walls, self._grid = walls, grid
+        self._doors = np.array([shapely.LineString(d.line()) for d in doors], dtype=object)
         self.sides = KnownSides(walls, doors)
-        self._usual = 0.0
+        self._usual = self._deep = 0.0
+        self._outdoors = _large_patches((grid.states == FREE) & ~grid.universe, _CRUMB / grid.cell**2)
         self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
         self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
         self._tree = shapely.STRtree(self._lines)
@@ -96,7 +106,7 @@ class RoomGrower:
     def grow_all(self, polygons: Sequence[Any]) -> list[Any]:
         """Each polygon completed, one after the other, beside the others as they are by then."""
         grown = list(polygons)
-        self._usual = self._usual_width(grown)
+        self._usual, self._deep = self._usual_sizes(grown)
         boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
         for k, polygon in enumerate(map(shapely.orient_polygons, polygons)):
             grown[k] = polygon
@@ -111,7 +121,7 @@ class RoomGrower:
         polygon = shapely.orient_polygons(polygon)
         if not self._is_guessed(polygon):
             return polygon
-        filled = self._fill_notches(polygon, others)
+        filled = self._fill_notches(self._pull_back(polygon), others)
         return self._fill_notches(self._push_sides(filled, others), others)
 
     def _sides(self, polygon: Any) -> list[RegionSide]:
@@ -132,6 +142,39 @@ class RoomGrower:
                 polygon = _largest(polygon.union(notch))
         return polygon
 
+    def _pull_back(self, polygon: Any) -> Any:
+        """The polygon without what lies farther beyond all that was seen of it than a room is deep."""
+        if not self._deep:
+            return polygon
+        x0, y0, x1, y1 = polygon.bounds
+        seen = self._seen_bounds(polygon)
+        if seen is None:
+            return polygon
+        u0, v0, u1, v1 = (
+            own if abs(own - known) <= self._deep else known
+            for own, known in zip((x0, y0, x1, y1), seen, strict=True)
+        )
+        return _largest(polygon.intersection(shapely.box(u0, v0, u1, v1)))
+
+    def _seen_bounds(self, polygon: Any) -> tuple[float, float, float, float] | None:
+        """x0, y0, x1, y1 of what was seen of a room: its free cells and the walls along its sides."""
+        grid = self._grid
+        window, inside = polygon_window(polygon, grid.origin, grid.cell, grid.states.shape)
+        rows, columns = np.nonzero(grid.universe[window] & inside)
+        if len(rows) == 0:
+            return None
+        corner = grid.origin + grid.cell * np.array([window[1].start, window[0].start])
+        low = corner + grid.cell * np.array([columns.min(), rows.min()])
+        high = corner + grid.cell * np.array([columns.max() + 1, rows.max() + 1])
+        for side in self._sides(polygon):
+            a, b = np.array(side.start), np.array(side.end)
+            along = int(abs(a[0] - b[0]) < abs(a[1] - b[1]))
+            for _, start, end, _ in self._walls.along(a, b)[0]:
+                low[along], high[along] = min(low[along], start), max(high[along], end)
+                low[1 - along] = min(low[1 - along], a[1 - along])
+                high[1 - along] = max(high[1 - along], a[1 - along])
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
     def _push_sides(self, polygon: Any, others: Any) -> Any:
         """The polygon with each guessed side pushed out as far as it goes."""
         for front in list(self._frontiers(polygon)):
@@ -141,16 +184,21 @@ class RoomGrower:
         return _largest(polygon)
 
     def _frontiers(self, polygon: Any) -> Iterator[Frontier]:
-        """The guessed sides that lie on no plane of the building."""
+        """The guessed sides; those on a plane of the building where nothing was seen of it are borrowed."""
         for side in self._sides(polygon):
             facing = self._walls.facing(np.array(side.start), np.array(side.end))
             a = facing.axis
-            if side.speculated and not (np.abs(self._offsets[facing] - side.start[a]) < _ON).any():
-                yield Frontier(facing, side.start[a], *sorted((side.start[1 - a], side.end[1 - a])))
+            on_plane = bool((np.abs(self._offsets[facing] - side.start[a]) < _ON).any())
+            if side.speculated and not (on_plane and side.observed > 0):
+                low, high = sorted((side.start[1 - a], side.end[1 - a]))
+                yield Frontier(facing, side.start[a], low, high, on_plane)
 
     def _depth(self, front: Frontier, polygon: Any, others: Any) -> float:
         """Metres by which a side goes out; 0 where it stays."""
         reach = self._before_regions(front, others, self._before_walls(front))
+        reach = reach.within(self._to_own_side(front, polygon), _REACH)
+        if front.borrowed:
+            return self._strip(front, reach.stop) if reach.stop <= reach.limit else 0.0
         if reach.stop <= reach.limit:
             return reach.stop
         planes = (self._borrowed[front.facing] - front.at) * front.out
@@ -158,6 +206,24 @@ class RoomGrower:
         if len(planes):
             return float(planes.min())
         return float(min(self._missing(front, polygon), reach.limit - self._walls.thickness))
+
+    def _strip(self, front: Frontier, depth: float) -> float:
+        """``depth`` where a strip lies ahead that has no door and is too narrow for a room; else 0."""
+        if depth > _STRIP * self._usual:
+            return 0.0
+        beside = front.ahead(depth).buffer(_BESIDE)
+        return 0.0 if shapely.intersects(beside, self._doors).any() else depth
+
+    def _to_own_side(self, front: Frontier, polygon: Any) -> float:
+        """Metres to the room's own wall ahead, seen beside the guessed side; infinite where there is none."""
+        a = front.facing.axis
+        ahead = [
+            (side.start[a] - front.at) * front.out
+            for side in self._sides(polygon)
+            if self._walls.facing(np.array(side.start), np.array(side.end)) == front.facing
+            and side.length * side.observed > _WALL
+        ]
+        return min((u for u in ahead if u > _ON), default=np.inf)
 
     def _missing(self, front: Frontier, polygon: Any) -> float:
         """Metres that a room lacks to the usual width; half of it where its other side is guessed too."""
@@ -170,16 +236,19 @@ class RoomGrower:
         to_last_wall = float(((known - front.at) * front.out).max(initial=0.0))
         return min(lacks / 2 if both else lacks, to_last_wall)
 
-    def _usual_width(self, polygons: Sequence[Any]) -> float:
-        """The median width of the rooms that were seen whole; 0 where there are too few."""
-        widths = []
+    def _usual_sizes(self, polygons: Sequence[Any]) -> tuple[float, float]:
+        """The median width and depth (the longer) of the rooms seen whole; 0 where there are too few."""
+        sizes = []
         for polygon in polygons:
             x0, y0, x1, y1 = polygon.bounds
             sides = self._sides(shapely.orient_polygons(polygon))
             seen = sum(s.length * s.observed for s in sides) / polygon.exterior.length
             if seen > _WHOLE:
-                widths.append(min(x1 - x0, y1 - y0))
-        return float(np.median(widths)) if len(widths) >= _ENOUGH else 0.0
+                sizes.append(sorted((x1 - x0, y1 - y0)))
+        if len(sizes) < _ENOUGH:
+            return 0.0, 0.0
+        width, depth = np.median(sizes, axis=0)
+        return float(width), float(depth)
 
     def _before_walls(self, front: Frontier) -> Reach:
         """A wall that faces much of the side closes the room; any other keeps it from going on."""
@@ -211,13 +280,20 @@ class RoomGrower:
         if part.intersection(others).area > _EXACT:
             return False
         window, inside = polygon_window(part, self._grid.origin, self._grid.cell, self._grid.states.shape)
-        outdoors = (self._grid.states[window] == FREE) & ~self._grid.universe[window] & inside
-        if outdoors.sum() > _OPEN * inside.sum():
+        if np.count_nonzero(self._outdoors[window] & inside) > _OPEN * inside.sum():
             return False
         near = self._lines[self._tree.query(part.buffer(_DEEP), predicate="intersects")]
         before, after = (s.buffer(-_DEEP, join_style="mitre") for s in (polygon, polygon.union(part)))
         gained = shapely.length(shapely.intersection(near, after.difference(before)))
         return not bool((gained > _WALL).any())
+
+
+def _large_patches(mask: Bool, least: float) -> Bool:
+    """The mask without its patches of fewer than ``least`` cells."""
+    label, count = label_patches(mask)
+    large = np.bincount(label.ravel(), minlength=count + 1) >= least
+    large[0] = False
+    return np.asarray(large[label])
 
 
 def _line(facing: Facing, offset: float, start: float, end: float) -> list[tuple[float, float]]:

@@ -69,9 +69,8 @@ class WallExtender:
         if not (first < end + _INSIDE and last > start - _INSIDE):
             return None  # a wall elsewhere in the building
         line = shapely.LineString(_across(axis, middle, first, last))
-        inside = [sorted(_along(axis, piece)) for piece in shapely.get_parts(line.intersection(polygon))]
-        inside = [(a, b) for a, b in inside if b - a > _EXACT]
-        mine = [(a, b) for a, b in inside if a < end + _INSIDE and b > start - _INSIDE]
+        inside = [_along(axis, piece) for piece in shapely.get_parts(line.intersection(polygon))]
+        mine = [(a, b) for a, b in inside if b - a > _EXACT and a < end + _INSIDE and b > start - _INSIDE]
         unseen = [
             (a, b) for a, b in mine for a, b in ((a, min(b, start)), (max(a, end), b)) if b - a > _EXACT
         ]
@@ -114,6 +113,7 @@ def _across(axis: int, middle: float, low: float, high: float) -> list[tuple[flo
     return ends if axis == 0 else [(v, u) for u, v in ends]
 
 
-def _along(axis: int, line: Any) -> list[float]:
-    """The coordinates of a line's ends along itself."""
-    return [float(xy[1 - axis]) for xy in shapely.get_coordinates(line)[[0, -1]]]
+def _along(axis: int, line: Any) -> tuple[float, float]:
+    """The coordinates of a line's ends along itself, the lower first."""
+    a, b = shapely.get_coordinates(line)[[0, -1], 1 - axis]
+    return float(min(a, b)), float(max(a, b))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from floorplan_core.model import FREE, Facing, LayoutPlane, LayoutSegment, OccupancyGrid
+from floorplan_core.model import FREE, Door, Facing, LayoutPlane, LayoutSegment, OccupancyGrid
 from floorplan_core.stages.region_sides import WallSurfaces
 from floorplan_core.stages.room_growth import RoomGrower
 
@@ -25,18 +25,22 @@ def grow(seen: Any, planes: list[LayoutPlane], others: Any = NOTHING, outdoors: 
     return grower(planes, outdoors).grow(seen, others)
 
 
-def grower(planes: list[LayoutPlane], outdoors: Any = None) -> RoomGrower:
+def grower(
+    planes: list[LayoutPlane], outdoors: Any = None, doors: tuple[Door, ...] = (), seen: Any = None
+) -> RoomGrower:
     segments = [
         LayoutSegment(s, p.facing, p.offset, *p.walls[0], 0.0, 2.5, 5.0, 100, 0.01, 0.001, plane=p.id)
         for p in planes
         for s in p.segments
     ]
-    states = np.zeros((100, 220), dtype=np.uint8)
-    cells = OccupancyGrid(np.array([-1.0, -1.0]), 0.1, states, states == FREE, 1.2)
-    if outdoors is not None:
-        x0, y0, x1, y1 = (round((v + 1.0) / 0.1) for v in outdoors)
-        states[y0:y1, x0:x1] = FREE
-    return RoomGrower(planes, WallSurfaces(planes, segments), (), cells, 0.4)
+    states, low = np.zeros((200, 220), dtype=np.uint8), -10.0
+    universe = np.zeros_like(states, dtype=bool)
+    for box, inside in ((outdoors, False), (seen, True)):
+        if box is not None:
+            x0, y0, x1, y1 = (round((v - o) / 0.1) for v, o in zip(box, (-1, low, -1, low), strict=True))
+            states[y0:y1, x0:x1], universe[y0:y1, x0:x1] = FREE, inside
+    cells = OccupancyGrid(np.array([-1.0, low]), 0.1, states, universe, 1.2)
+    return RoomGrower(planes, WallSurfaces(planes, segments), doors, cells, 0.4)
 
 
 # The room is 0 .. 5 by 0 .. 4; its west, south and north sides were seen.
@@ -129,3 +133,48 @@ def test_no_room_is_widened_beyond_the_last_wall_of_the_building() -> None:
     whole = [shapely.box(4 * k, 0, 4 * k + 3, 4) for k in range(3)]
     *_, strip = grower(planes).grow_all([*whole, shapely.box(12, 0, 13.4, 4)])
     assert strip.bounds[2] == pytest.approx(13.4)
+
+
+def rooms_seen_whole() -> tuple[list[LayoutPlane], list[Any]]:
+    """Three rooms of 4 x 5 m in a row from x = 6, all of their walls seen."""
+    planes, rooms = [], []
+    for k in range(3):
+        x = 6 + 4.12 * k
+        rooms.append(shapely.box(x, 0, x + 4, 5))
+        planes += [wall(f"e{k}", Facing.EAST, x, 0, 5), wall(f"w{k}", Facing.WEST, x + 4, 0, 5)]
+        planes += [wall(f"n{k}", Facing.NORTH, 0, x, x + 4), wall(f"s{k}", Facing.SOUTH, 5, x, x + 4)]
+    return planes, rooms
+
+
+def test_a_room_is_no_deeper_beyond_what_was_seen_than_rooms_are() -> None:
+    planes, rooms = rooms_seen_whole()
+    far = wall("far", Facing.NORTH, -9, 18, 19)  # borrowed: nothing of it was seen before the room below
+    made = grower([*planes, wall("n", Facing.SOUTH, -1, 6, 10), far], seen=(6, -3, 7, -1))
+    grown = made.grow_all([*rooms, shapely.box(6, -9, 10, -1)])
+    assert grown[3].bounds[1] == pytest.approx(-5)
+    assert grown[3].bounds[3] == pytest.approx(-1)
+    near = made.grow_all([*rooms, shapely.box(6, -7, 10, -1)])
+    assert near[3].bounds[1] <= -7  # as far as a room reaches
+
+
+def test_a_narrow_strip_without_a_door_belongs_to_the_room_beside_it() -> None:
+    planes, rooms = rooms_seen_whole()
+    planes += [
+        wall("n", Facing.NORTH, 0, 1, 5),
+        wall("s", Facing.SOUTH, 5, 1, 5),
+        wall("e", Facing.EAST, 1, 0, 5),
+    ]
+    planes.append(
+        wall("b", Facing.WEST, 4.5, 8, 9)
+    )  # a plane of the building, of which nothing was seen here
+    short = shapely.box(1, 0, 4.5, 5)
+    grown = grower(planes).grow_all([*rooms, short])
+    assert grown[3].bounds[2] == pytest.approx(6 - THICK)
+    door = Door("d", (), 1, -0.06, 4.6, 5.4, thickness=0.12)
+    assert grower(planes, doors=(door,)).grow_all([*rooms, short])[3].equals(short)
+
+
+def test_stray_rays_are_no_open_air() -> None:
+    planes = [wall("w", Facing.WEST, 6, 0, 4)]
+    grown = grow(shapely.box(1, 0, 4, 4), planes, outdoors=(4.2, 1.0, 4.8, 1.6))
+    assert grown.bounds[2] == pytest.approx(6)
