@@ -90,19 +90,32 @@ def _window(door: Door) -> tuple[float, float, float, float]:
 
 @njit(cache=True, nogil=True)
 def _collect(xyz, boxes, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
-    """Points in boxes: the box and the point of each hit. A grid of marked cells answers for most points."""
-    marked = np.zeros((ny, nx), dtype=np.bool_)
+    """Points in boxes: the box and the point of each hit. A grid of cells knows which boxes touch each."""
     per_metre = 1.0 / cell  # a factor rounds otherwise than a quotient, but here as there
+    spans = np.empty((len(boxes), 4), dtype=np.int64)
+    first = np.zeros(ny * nx + 1, dtype=np.int64)  # where the boxes of a cell begin
     for b in range(len(boxes)):
-        x0, y0 = int((boxes[b, 0] - origin[0]) * per_metre), int((boxes[b, 1] - origin[1]) * per_metre)
-        x1, y1 = int((boxes[b, 2] - origin[0]) * per_metre), int((boxes[b, 3] - origin[1]) * per_metre)
-        marked[max(0, y0) : max(0, y1 + 1), max(0, x0) : max(0, x1 + 1)] = True
+        spans[b, 0] = max(0, int((boxes[b, 0] - origin[0]) * per_metre))
+        spans[b, 1] = max(0, int((boxes[b, 1] - origin[1]) * per_metre))
+        spans[b, 2] = min(nx, int((boxes[b, 2] - origin[0]) * per_metre) + 1)
+        spans[b, 3] = min(ny, int((boxes[b, 3] - origin[1]) * per_metre) + 1)
+        for iy in range(spans[b, 1], spans[b, 3]):
+            for ix in range(spans[b, 0], spans[b, 2]):
+                first[iy * nx + ix + 1] += 1
+    first = np.cumsum(first)
+    touching, used = np.empty(first[-1], dtype=np.int64), first.copy()
+    for b in range(len(boxes)):
+        for iy in range(spans[b, 1], spans[b, 3]):
+            for ix in range(spans[b, 0], spans[b, 2]):
+                touching[used[iy * nx + ix]] = b
+                used[iy * nx + ix] += 1
     owner, index = [0], [0]
     for i in range(len(xyz)):
         ix, iy = int((xyz[i, 0] - origin[0]) * per_metre), int((xyz[i, 1] - origin[1]) * per_metre)
-        if not (0 <= ix < nx and 0 <= iy < ny) or not marked[iy, ix]:
+        if not (0 <= ix < nx and 0 <= iy < ny):
             continue
-        for b in range(len(boxes)):
+        for k in range(first[iy * nx + ix], first[iy * nx + ix + 1]):
+            b = touching[k]
             if boxes[b, 0] <= xyz[i, 0] <= boxes[b, 2] and boxes[b, 1] <= xyz[i, 1] <= boxes[b, 3]:
                 owner.append(b)
                 index.append(i)

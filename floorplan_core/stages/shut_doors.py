@@ -97,7 +97,10 @@ def depth_profile(plane: LayoutPlane, evidence: Evidence, rows: NDArray[np.int64
         inside = (xyz[:, 2] > heights[0]) & (xyz[:, 2] < heights[1])
         return _medians(along[inside], depth[inside], bins)
 
-    return DepthProfile(start, evidence.fine, over(_LEAF), over(_LOW), over(_LINTEL))
+    leaf = over(_LEAF)
+    if not (np.nan_to_num(leaf, nan=-1.0) > _DEPTH[0]).any():  # nothing stands back: no more to look at
+        return DepthProfile(start, evidence.fine, leaf, leaf, leaf)
+    return DepthProfile(start, evidence.fine, leaf, over(_LOW), over(_LINTEL))
 
 
 def _medians(group: NDArray[np.int64], value: Float, groups: int) -> Float:

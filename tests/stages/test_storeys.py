@@ -36,7 +36,7 @@ def storeys_of(*parts: np.ndarray, turned: np.ndarray | None = None) -> tuple[St
     """What is found in the points of ``parts`` with 5 mm of noise."""
     points = np.concatenate(parts)
     points = points + np.random.default_rng(0).normal(0, 0.005, points.shape)
-    planner = FloorPlanner()
+    planner = FloorPlanner(IN_THE_FILES_AXES)  # heights are looked at
     planner.integrate(points if turned is None else points @ turned.T)
     return planner.storeys()
 
@@ -45,6 +45,7 @@ def heights(storeys: tuple[Storey, ...]) -> list[tuple[float, float | None]]:
     return [(s.floor_z, s.ceiling_z) for s in storeys]
 
 
+IN_THE_FILES_AXES = Config().with_values({"voxels.own_axes": "false"})
 GROUND = box(0, 0, 8, 6, 0, HEIGHT)
 UP = HEIGHT + SLAB
 
@@ -162,7 +163,7 @@ def _stacked(heights: tuple[float, ...], trajectory: bool = True) -> Reconstruct
 
 @pytest.mark.parametrize("trajectory", [True, False], ids=["viewpoints", "plain"])
 def test_each_storey_has_the_plan_it_would_have_alone(trajectory):
-    plans = process_storeys(_stacked((0.0, 3.2), trajectory))
+    plans = process_storeys(_stacked((0.0, 3.2), trajectory), IN_THE_FILES_AXES)
     assert [p.storey for p in plans] == [0, 1]
     assert [p.frame.floor_z for p in plans] == pytest.approx([0.0, 3.2], abs=0.02)
     for plan, (w, d) in zip(plans, [(4, 5), (6, 3)], strict=True):
