@@ -76,6 +76,7 @@ def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]
 
     in_halves(collect, len(evidence.xyz), _WORTH)
     owner, index = (np.concatenate(parts) for parts in zip(*(found[k] for k in sorted(found)), strict=True))
+    owner = owner.astype(np.uint16 if len(boxes) <= 1 << 16 else np.int64)  # 16 bits are sorted by radix
     order = np.argsort(owner, kind="stable")
     bounds = np.searchsorted(owner[order], np.arange(len(boxes) + 1))
     return [index[order[a:b]] for a, b in pairwise(bounds)]
