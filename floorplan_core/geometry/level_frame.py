@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
+_LARGEST = 10_000.0  # m: points farther apart are no building, and their heights would fill the memory
 _COARSE = 2_000  # points that are looked at while the start is searched for
 _TILTS = ((math.radians(2.5), 4), (math.radians(1), 2), (math.radians(0.4), 2))  # step, steps to both sides
 _BIN = 0.1  # m, of the heights among which a level stands out
@@ -34,6 +35,8 @@ _FEWEST = 3.0  # sum of weights that fixes a plane
 def level_rotation(points: NDArray[Any]) -> Float:
     """(3, 3) smallest rotation that makes the strongest level of (N, 3) points horizontal, else identity."""
     p = np.ascontiguousarray(points, dtype=np.float64)
+    if np.ptp(p, axis=0).max() > _LARGEST:
+        return np.eye(3)
     start = _start(p[:: max(1, len(p) // _COARSE)])
     found = [fit for height in _heights(p @ start) if (fit := _fit(p, start, height)) is not None]
     if not found:
