@@ -7,7 +7,8 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from evaluation_cases import perfect_plan, truth
+
+from tests.evaluation.evaluation_cases import perfect_plan, truth
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 

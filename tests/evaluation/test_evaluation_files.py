@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from evaluation_cases import perfect_plan, truth
 
 from floorplan_core.errors import InputError
 from floorplan_core.evaluation import evaluate, load_truth, read_plan
 from floorplan_core.evaluation.truth import Truth
 from floorplan_core.evaluation.truths import parse_truth
 from floorplan_core.evaluation.wall_section_truth import doorways
+from tests.evaluation.evaluation_cases import perfect_plan, truth
 
 DATA = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 

@@ -7,10 +7,10 @@ import math
 
 import pytest
 import shapely
-from evaluation_cases import YAW, door, frame, perfect_plan, region, truth, turned
 
 from floorplan_core.evaluation import EvaluationReport, compare, evaluate, parse_plan
 from floorplan_core.evaluation.truths import parse_truth
+from tests.evaluation.evaluation_cases import YAW, door, frame, perfect_plan, region, truth, turned
 
 
 def scored(plan=None, document=None) -> EvaluationReport:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import copy
 
 import pytest
-from evaluation_cases import YAW, door, perfect_plan, region, truth, turned
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplan_core.evaluation import compare, parse_plan
 from floorplan_core.evaluation.truths import parse_truth
+from tests.evaluation.evaluation_cases import YAW, door, perfect_plan, region, truth, turned
 
 LENGTH = st.floats(-6, 12).map(lambda v: round(v, 2))
 BOX = st.tuples(LENGTH, LENGTH, st.floats(0.5, 8), st.floats(0.5, 8))

@@ -6,13 +6,13 @@ import json
 
 import numpy as np
 import pytest
-from ifc_cases import DOOR, ROOMS, write_house
 
 from floorplan_core.cli.main import run
 from floorplan_core.errors import InputError
 from floorplan_core.evaluation import load_truth
 from floorplan_core.evaluation.truth_file import truth_document
 from floorplan_core.evaluation.truths import parse_truth
+from tests.evaluation.ifc_cases import DOOR, ROOMS, write_house
 
 pytest.importorskip("ifcopenshell", reason="ifcopenshell is optional")
 
@@ -62,7 +62,7 @@ def test_a_truth_is_written_and_read_back(tmp_path):
 
 
 def test_evaluate_takes_a_model_and_saves_its_truth(tmp_path, capsys):
-    from evaluation_cases import perfect_plan
+    from tests.evaluation.evaluation_cases import perfect_plan
 
     house = write_house(tmp_path / "house.ifc")
     plan = tmp_path / "plan.geojson"

@@ -10,14 +10,14 @@ import zipfile
 import numpy as np
 import pytest
 from lz4 import frame as lz4
-from plugin_files import MEMORY, opened, peak_memory, refusal, whole
 from rosbags.rosbag1 import Writer
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
-from test_rosbag import ROS1, ROS2, START, Messages, local, parts, poses
 
 from floorcast_plugins import _bounded
 from floorcast_plugins._bounded import Bomb, BoundedFile, bound_rosbags, unpack
+from tests.plugins.plugin_files import MEMORY, opened, peak_memory, refusal, whole
+from tests.plugins.test_rosbag import ROS1, ROS2, START, Messages, local, parts, poses
 
 ZEROS = 1 << 27  # bytes that a bomb holds
 

@@ -6,8 +6,8 @@ import gzip
 
 import numpy as np
 import pytest
-from plugin_files import opened, refusal, shared, survives, whole
 
+from tests.plugins.plugin_files import opened, refusal, shared, survives, whole
 from tests.readers.reader_clouds import Remembering
 
 SIZE = (8.0, 5.0)

@@ -7,10 +7,10 @@ import struct
 import numpy as np
 import pye57
 import pytest
-from plugin_files import opened, refusal, survives, whole
 from pye57 import libe57
 from scipy.spatial.transform import Rotation
 
+from tests.plugins.plugin_files import opened, refusal, survives, whole
 from tests.readers.reader_clouds import room
 
 STATIONS = ((2.0, 1.5, 1.4), (6.0, 3.5, 1.5), (4.0, 2.5, 1.3))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pye57
 import pytest
-from plugin_files import refusal
 from pye57 import libe57
 
 from floorcast_plugins import _e57_packets as packets
@@ -17,6 +16,7 @@ from floorcast_plugins._e57_scans import (
     opened_image,
     read_scan,
 )
+from tests.plugins.plugin_files import refusal
 
 MOST = 1 << 53  # up to which doubles are exact
 COUNT = 20_011  # neither whole bytes nor whole buffers

@@ -8,8 +8,8 @@ import laspy
 import numpy as np
 import pytest
 from laspy.vlrs.known import GeoKeyDirectoryVlr, WktCoordinateSystemVlr
-from plugin_files import opened, refusal, survives, whole
 
+from tests.plugins.plugin_files import opened, refusal, survives, whole
 from tests.readers.reader_clouds import Remembering, path_in_room, room, write_tum
 
 SHIFT = np.array([448_000.0, 5_412_000.0, 120.0])

@@ -8,7 +8,8 @@ import struct
 import numpy as np
 import pytest
 import trimesh
-from plugin_files import opened, refusal, survives, whole
+
+from tests.plugins.plugin_files import opened, refusal, survives, whole
 
 SIZE = np.array([8.0, 5.0, 2.6])
 AREA = 2 * (8 * 5 + 8 * 2.6 + 5 * 2.6)

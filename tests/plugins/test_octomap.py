@@ -6,7 +6,8 @@ import struct
 
 import numpy as np
 import pytest
-from plugin_files import opened, refusal, shared, survives, whole
+
+from tests.plugins.plugin_files import opened, refusal, shared, survives, whole
 
 FREE, OCCUPIED = 1, 2  # the two bits of a child in a .bt file
 RES = 0.05

@@ -7,10 +7,10 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
-from plugin_files import opened, refusal, whole
 from scipy.spatial.transform import Rotation
 
 from floorplan_core.errors import InputError
+from tests.plugins.plugin_files import opened, refusal, whole
 from tests.readers.reader_clouds import Remembering
 
 SIZE = np.array([8.0, 5.0, 2.6])
@@ -202,7 +202,7 @@ def test_depth_lists_stay_in_their_folder(tmp_path):
 
 def test_damaged_images_and_texts(tmp_path):
     """Every file of the folder in turn, cut and changed."""
-    from plugin_files import damages
+    from tests.plugins.plugin_files import damages
 
     root = write_tum_folder(tmp_path / "run")
     opened(root)

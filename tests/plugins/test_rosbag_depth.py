@@ -8,9 +8,10 @@ import struct
 import numpy as np
 import pytest
 from PIL import Image
-from plugin_files import opened, refusal, survives, whole
-from test_rgbd import COUNT, CX, CY, HEIGHT, SIZE, WIDTH, F, camera_poses, render
-from test_rosbag import START, Messages, mount, write_recording
+
+from tests.plugins.plugin_files import opened, refusal, survives, whole
+from tests.plugins.test_rgbd import COUNT, CX, CY, HEIGHT, SIZE, WIDTH, F, camera_poses, render
+from tests.plugins.test_rosbag import START, Messages, mount, write_recording
 
 QUANTISED = (10_000.0, 5.0)  # of inverse depth: a and b in depth = a / (value - b)
 

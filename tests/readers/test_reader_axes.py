@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from reader_clouds import all_points, path_in_room, room, write_ply, write_tum, xyz_columns
 
 from floorplan_core.config import Config, InputConfig
 from floorplan_core.errors import InputError
@@ -18,6 +17,7 @@ from floorplan_core.readers.ply import ply_source
 from floorplan_core.readers.trajectory import read_trajectory
 from floorplan_core.readers.trajectory_files import find_trajectory
 from floorplan_core.units import METRES_PER_UNIT, UP_AXES, up_rotation
+from tests.readers.reader_clouds import all_points, path_in_room, room, write_ply, write_tum, xyz_columns
 
 SHARED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 SURVEYS_3D = (

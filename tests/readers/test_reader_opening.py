@@ -7,13 +7,13 @@ import socket
 
 import numpy as np
 import pytest
-from reader_clouds import Remembering, all_points, room, write_pcd, write_ply, xyz_columns
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import Cancelled, InputError
 from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.plugins import Reader
 from floorplan_core.readers import builtin_readers, open_survey
+from tests.readers.reader_clouds import Remembering, all_points, room, write_pcd, write_ply, xyz_columns
 
 AS_IT_IS = InputConfig(unit="m", up="z")
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reader_clouds import all_points, ply_header, room, write_ply, xyz_columns
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.readers import open_survey
+from tests.readers.reader_clouds import all_points, ply_header, room, write_ply, xyz_columns
 
 AS_IT_IS = InputConfig(unit="m", up="z")
 FORMS = ("ascii", "binary_little_endian", "binary_big_endian")

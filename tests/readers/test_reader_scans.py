@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reader_clouds import all_points, path_in_room, room, write_pcd, write_ply, write_tum, xyz_columns
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.readers import open_survey
 from floorplan_core.readers.trajectory import read_trajectory
+from tests.readers.reader_clouds import (
+    all_points,
+    path_in_room,
+    room,
+    write_pcd,
+    write_ply,
+    write_tum,
+    xyz_columns,
+)
 
 AS_IT_IS = InputConfig(unit="m", up="z")
 COUNT = 12

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reader_clouds import Remembering, all_points, room
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.readers import open_survey
+from tests.readers.reader_clouds import Remembering, all_points, room
 
 AS_IT_IS = InputConfig(unit="m", up="z")
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reader_clouds import all_points, path_in_room, room, write_ply, write_tum, xyz_columns
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.readers import open_survey
 from floorplan_core.readers.join_time import nearest_rows
 from floorplan_core.readers.trajectory import looks_like_trajectory, read_trajectory
+from tests.readers.reader_clouds import all_points, path_in_room, room, write_ply, write_tum, xyz_columns
 
 START = 1_403_636_579.5  # seconds: a run of EuRoC
 
