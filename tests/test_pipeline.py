@@ -14,7 +14,8 @@ import shapely
 
 from floorplan_core.config import Config
 from floorplan_core.errors import Cancelled, NoPlanError
-from floorplan_core.exporters.geojson import geojson_text
+from floorplan_core.evaluation import compare, load_truth, read_plan
+from floorplan_core.exporters.geojson import GeoJsonExporter, geojson_text
 from floorplan_core.exporters.svg import svg_text
 from floorplan_core.model import FloorPlan, PointChunk, Reconstruction, Trajectory
 from floorplan_core.observer import CancelToken, Observer
@@ -127,6 +128,14 @@ def test_the_bundled_survey_gives_a_valid_plan(sample):
     assert len(sample.regions) >= len(entered)
     assert len(sample.doors) >= 0.7 * len(entered)
     assert {"room", "corridor"} <= {r.label for r in sample.regions}
+
+
+def test_the_bundled_survey_has_every_door_and_calls_no_window_one(sample, tmp_path):
+    GeoJsonExporter().write(sample, tmp_path / "plan.geojson")
+    doors = compare(read_plan(tmp_path / "plan.geojson"), load_truth(SAMPLE)).doors
+    assert doors is not None
+    assert (doors.precision, doors.recall, doors.windows_as_doors) == (1.0, 1.0, 0)
+    assert (doors.openings_found, doors.openings_unmatched) == (1, 0)
 
 
 def test_the_bundled_survey_gives_the_same_bytes_again(sample):

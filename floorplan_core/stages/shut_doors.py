@@ -36,6 +36,7 @@ _WIDEST = 1.8  # m, a double door
 _SIDEWAYS = 0.2  # cosine of the steepest view that still tells from which side a point was seen
 _FLAT = 0.012  # m, spread of a leaf's depth along it
 _UNDER = 0.5  # share of its width over which the lintel was seen
+_UPRIGHT = 0.5  # of its lower part as deep as the leaf: doors from 0.67, a pane above its frame 0.35
 _ENOUGH = 4  # surfels whose median is believed
 _SEEN = 3  # bins of its lower part that must have been seen
 CONFIDENCE = 0.9
@@ -137,7 +138,7 @@ def _is_leaf(profile: DepthProfile, a: int, b: int) -> bool:
     if float((np.abs(profile.lintel[a:b]) < face).mean()) < _UNDER:
         return False
     low = profile.low[a:b][np.isfinite(profile.low[a:b])]
-    return len(low) >= _SEEN and float(np.median(low)) > depth - _LEVEL
+    return len(low) >= _SEEN and float((np.abs(low - depth) < _LEVEL).mean()) > _UPRIGHT
 
 
 def _leaf(plane: LayoutPlane, start: float, end: float) -> Door:

@@ -79,6 +79,14 @@ def test_a_recess_above_a_sill_or_up_to_the_ceiling_is_none():
     assert recesses(replace(niche, low=np.full(60, np.nan)), 0.6) == []
 
 
+def test_a_pane_whose_frame_stands_before_and_behind_it_near_the_floor_is_none():
+    pane, uneven = profile(0.1), np.arange(60) % 3
+    low = np.where(pane.low > 0, np.array([0.07, 0.1, 0.14])[uneven], 0.0)
+    assert recesses(replace(pane, low=low), 0.6) == []
+    mostly = np.where(pane.low > 0, np.array([0.1, 0.1, 0.14])[uneven], 0.0)
+    assert len(recesses(replace(pane, low=mostly), 0.6)) == 1
+
+
 @pytest.mark.parametrize(
     "extra",
     [(), (sill(0.9), leaf(0.9)), (sill(0.3), leaf(0.3))],
