@@ -13,6 +13,7 @@ from floorcast_app.warm_up import WarmUp
 if TYPE_CHECKING:
     from floorcast_app.jobs import Jobs
 
+SWITCH = 0.0005  # s after which a thread that computes is asked to let the window have the interpreter
 SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
 LAST_WAIT = 60.0  # s for a thread that is compiling or reading; nobody sees it, the window is gone
 
@@ -71,9 +72,12 @@ def make_application():  # type: ignore[no-untyped-def]
     from PySide6.QtWidgets import QApplication
 
     from floorcast_app import theme
+    from floorcast_app.gentle_imports import import_gently
     from floorcast_app.translation import install_translator
     from floorplan_core import __version__
 
+    import_gently()
+    sys.setswitchinterval(SWITCH)
     qInstallMessageHandler(_log)
     app = QApplication.instance() or QApplication(sys.argv[:1])
     app.setApplicationName("Floorcast")

@@ -1,21 +1,19 @@
 """Loads what the first plan needs while the user looks for a file. No Qt.
 
-Compiled kernels are linked when they are first called, which holds the interpreter for a moment each: better
-now than while a survey is on its way. A box of points goes through the whole pipeline for that.
+Modules are imported and compiled kernels linked when they are first called, which holds the interpreter for a
+moment each: better now than while a survey is on its way. The bundled survey is planned for that.
 """
 
 from __future__ import annotations
 
 import threading
 
-import numpy as np
-
+from floorcast_app import theme
+from floorplan_core.config import Config
 from floorplan_core.errors import FloorPlanError
 from floorplan_core.observer import CancelToken, Observer
 
 LAST_WAIT = 60.0  # s for what cannot be interrupted; nobody sees it, the window is gone
-SIZE = (4.0, 3.0, 2.5)  # metres of the box
-STEP = 0.05  # metres between its points
 
 
 class WarmUp:
@@ -39,26 +37,17 @@ class WarmUp:
         from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
 
         use_kernel_cache()
-        from floorplan_core.pipeline import FloorPlanner
-
         if not kernels_compiled() or self._cancel.cancelled:
             return  # compiling takes a minute: that is for the first survey, which says so
-        planner = FloorPlanner(observer=Observer(self._cancel))
-        eye = np.eye(4)
-        eye[:3, 3] = np.array(SIZE) / 2
+        import scipy.spatial  # noqa: F401 (the 3D pane's points ask it for their wall)
+
+        from floorplan_core.session import PlanningSession
+
+        config, observer = Config(), Observer(self._cancel)
         try:
-            planner.integrate(box() - eye[:3, 3], eye)
-            planner.plan()
+            session = PlanningSession.open(theme.resource("sample_survey"), None, config, observer)
+            session.read(observer)
+            session.plan(config, (), observer, 0)
+            session.storeys(config)
         except FloorPlanError:
-            return  # cancelled, or the box is no room: what was loaded is loaded
-
-
-def box() -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """(N, 3) points on the inside of a box, metres."""
-    sides = []
-    for axis in range(3):
-        a, b = (np.arange(0, SIZE[k], STEP) for k in range(3) if k != axis)
-        grid = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1).reshape(-1, 2)
-        for at in (0.0, SIZE[axis]):
-            sides.append(np.insert(grid, axis, at, axis=1))
-    return np.concatenate(sides)
+            return  # cancelled, or the survey is not there: what was loaded is loaded

@@ -1,8 +1,9 @@
-"""How long the window ever stands still: ``python -m benchmarks.ui`` (``make bench-ui``).
+"""How long the window ever stands still: ``python -m benchmarks.ui [--who]`` (``make bench-ui``).
 
 A timer of 10 ms runs in the event loop while a survey of 5 M points is loaded and planned, while a setting is
-changed, and while a second load is cancelled half way. Reported are the largest gaps between two ticks, and
-the time until the first window stands.
+changed, while it is orbited, while a second load is cancelled half way, and while the theme is changed.
+Reported are the largest gaps between two ticks, with and without the time in which other programs had the
+processor, and the time until the first window stands. ``--who`` tells what every thread did in the gaps.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ import os
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -19,37 +19,12 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import numpy as np
 from PySide6.QtCore import QEventLoop, QTimer
 
+from benchmarks.stand_still import Gap, StandStill
+
 POINTS = 5_000_000
-TICK = 10  # ms
+LEAST = 15.0  # ms: any gap longer than this is looked at
+TOLD = 3  # gaps of each piece of work that --who tells
 SAMPLE = Path(__file__).resolve().parents[1] / "resources" / "sample_survey"
-
-
-@dataclass
-class Gaps:
-    """The largest time between two ticks since the last :meth:`take`, ms.
-
-    ``busy`` is the processor time that the main thread itself spent between two ticks: where that is small
-    and the gap is not, the machine had other things to do, or another thread held the interpreter.
-    """
-
-    largest: float = 0.0
-    busy: float = 0.0
-    last: tuple[float, float] = (0.0, 0.0)
-
-    def tick(self) -> None:
-        now = _clocks()
-        self.largest = max(self.largest, now[0] - self.last[0])
-        self.busy = max(self.busy, now[1] - self.last[1])
-        self.last = now
-
-    def take(self) -> tuple[float, float]:
-        taken = (self.largest, self.busy)
-        self.largest, self.busy, self.last = 0.0, 0.0, _clocks()
-        return taken
-
-
-def _clocks() -> tuple[float, float]:
-    return time.perf_counter() * 1000, time.thread_time() * 1000
 
 
 def big_survey(folder: Path, points: int) -> Path:
@@ -92,42 +67,56 @@ def main() -> int:
     from floorcast_app.script import ScriptedApplication
     from floorcast_app.warm_up import WarmUp
 
+    who = "--who" in sys.argv[1:]
     began = time.perf_counter()
     app = make_application()
     window = make_window(unattended=True)
     window.resize(1440, 900)
     window.show()
     app.processEvents()
-    rows = [("first window, s", time.perf_counter() - began)]
+    _say("first window, s", time.perf_counter() - began)
     warming = WarmUp()
     warming.start()
-    script, gaps = ScriptedApplication(window), Gaps()
-    timer = QTimer(interval=TICK)
-    timer.timeout.connect(gaps.tick)
-    timer.start()
+    script, watch = ScriptedApplication(window), StandStill(LEAST, who)
+    spin(3)  # as long as somebody takes to choose a file
+    _tell("until a file is chosen", watch.take(), who)
     with tempfile.TemporaryDirectory() as folder:
         survey = big_survey(Path(folder), POINTS)
-        gaps.take()
-        spin(2)  # as long as somebody takes to choose a file
-        rows.append(("until a file is chosen: largest gap, ms", gaps.take()[0]))
+        watch.take()
         for name, work in (
             ("load and plan", lambda: script.run("file.open", path=survey)),
             ("look at it", lambda: spin(3)),
             ("change a door setting", lambda: script.run("plan.set", name="doors.max_width", value=1.2)),
             ("orbit", lambda: _orbit(window.workbench)),
             ("cancel half way", lambda: _cancel(script, survey)),
+            ("change the theme", lambda: script.run("view.theme")),
+            ("and back", lambda: script.run("view.theme")),
         ):
             started = time.perf_counter()
             work()
-            spin(0.2)
-            gap, busy = gaps.take()
-            rows += [(f"{name}: s", time.perf_counter() - started), ("    largest gap, ms", gap)]
-            rows += [("    of it the window's own work, at most, ms", busy)]
+            spin(0.5)
+            _say(f"{name}, s", time.perf_counter() - started)
+            _tell(name, watch.take(), who)
         window.close()
+        window.workbench.jobs.wait()
     warming.stop()
-    for name, value in rows:
-        sys.stdout.write(f"{name:44s} {value:8.2f}\n")
+    watch.stop()
     return 0
+
+
+def _say(name: str, value: float) -> None:
+    sys.stdout.write(f"{name:60s} {value:8.2f}\n")
+    sys.stdout.flush()
+
+
+def _tell(name: str, gaps: list[Gap], who: bool) -> None:
+    """The largest gaps, each by its own measure; ``gaps`` are longest first, without other programs."""
+    _say("    largest gap, ms", max((g.milliseconds for g in gaps), default=0.0))
+    _say("    the same without waiting for a processor, ms", gaps[0].own if gaps else 0.0)
+    _say("    the window's own work between two ticks, at most, ms", max((g.busy for g in gaps), default=0.0))
+    for gap in gaps[:TOLD] if who else ():
+        others = ", ".join(f"{thread} {ms:.0f}" for thread, ms in gap.threads if ms >= 1)
+        sys.stdout.write(f"      {gap.own:.0f} ms; the others computed: {others}\n{gap.stacks}\n")
 
 
 def _orbit(workbench) -> None:  # type: ignore[no-untyped-def]
@@ -139,7 +128,8 @@ def _orbit(workbench) -> None:  # type: ignore[no-untyped-def]
 def _cancel(script, survey: Path) -> None:  # type: ignore[no-untyped-def]
     script.run("file.open", wait=False, path=survey)
     spin(0.7)
-    script.workbench.run("plan.cancel")
+    if script.workbench.jobs.running:
+        script.workbench.run("plan.cancel")
 
 
 if __name__ == "__main__":
