@@ -10,14 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.boxes import index_boxes, points_in_boxes
 from floorplan_core.geometry.columns import LEVEL
-from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
@@ -28,7 +26,6 @@ _AROUND = 0.4  # m beside an aperture in which the wall is looked for
 _SKIN = 0.03  # m about the face of a wall: its own noise
 _ASSUMED = 0.12  # m, thickness where only one face was seen
 _BODY = (0.25, 1.85)  # m above the floor, between skirting and lintel
-_WORTH = 200_000  # surfels from which two threads are faster than one
 _ENOUGH = 6  # surfels that make a reveal
 _BIN = 0.02  # m along the wall
 _LEVELS = 16  # parts of the height of a body
@@ -44,7 +41,9 @@ def refine_edges(
     doors: Sequence[Door], planes: Sequence[LayoutPlane], evidence: Evidence
 ) -> tuple[Door, ...]:
     """The doors with start, end and height measured on the surfels near them."""
-    near = points_in_boxes(evidence, np.array([_window(door) for door in doors]).reshape(-1, 4))
+    windows = np.array([_window(door) for door in doors]).reshape(-1, 4)
+    index = index_boxes(windows, evidence.origin, evidence.cell, evidence.shape)
+    near = points_in_boxes(evidence.xyz, index)
     facing = {p.id: p.facing for p in planes}
     signs = [0 if d.thickness > 0 else facing[d.planes[0]].sign for d in doors]
     return tuple(
@@ -63,64 +62,11 @@ def _is_solid(evidence: Evidence, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
     return np.asarray(~inside | (free == 0))
 
 
-def points_in_boxes(evidence: Evidence, boxes: Float) -> list[NDArray[np.int64]]:
-    """For each of the (K, 4) boxes x0, y0, x1, y1 (metres) the rows of the surfels in it, in order."""
-    if not len(boxes):
-        return []
-    ny, nx = evidence.shape
-    found: dict[int, tuple[NDArray[np.int64], NDArray[np.int64]]] = {}
-
-    def collect(start: int, stop: int) -> None:
-        owner, index = _collect(evidence.xyz[start:stop], boxes, evidence.origin, evidence.cell, ny, nx)
-        found[start] = owner, index + start
-
-    in_halves(collect, len(evidence.xyz), _WORTH)
-    owner, index = (np.concatenate(parts) for parts in zip(*(found[k] for k in sorted(found)), strict=True))
-    owner = owner.astype(np.uint16 if len(boxes) <= 1 << 16 else np.int64)  # 16 bits are sorted by radix
-    order = np.argsort(owner, kind="stable")
-    bounds = np.searchsorted(owner[order], np.arange(len(boxes) + 1))
-    return [index[order[a:b]] for a, b in pairwise(bounds)]
-
-
 def _window(door: Door) -> tuple[float, float, float, float]:
     """x0, y0, x1, y1 of all that is looked at for a door."""
     u0, u1 = door.offset - door.thickness / 2 - _ASSUMED, door.offset + door.thickness / 2 + _ASSUMED
     v0, v1 = door.start - _AROUND, door.end + _AROUND
     return (u0, v0, u1, v1) if door.axis == 0 else (v0, u0, v1, u1)
-
-
-@njit(cache=True, nogil=True)
-def _collect(xyz, boxes, origin, cell, ny, nx):  # type: ignore[no-untyped-def]
-    """Points in boxes: the box and the point of each hit. A grid of cells knows which boxes touch each."""
-    per_metre = 1.0 / cell  # a factor rounds otherwise than a quotient, but here as there
-    spans = np.empty((len(boxes), 4), dtype=np.int64)
-    first = np.zeros(ny * nx + 1, dtype=np.int64)  # where the boxes of a cell begin
-    for b in range(len(boxes)):
-        spans[b, 0] = max(0, int((boxes[b, 0] - origin[0]) * per_metre))
-        spans[b, 1] = max(0, int((boxes[b, 1] - origin[1]) * per_metre))
-        spans[b, 2] = min(nx, int((boxes[b, 2] - origin[0]) * per_metre) + 1)
-        spans[b, 3] = min(ny, int((boxes[b, 3] - origin[1]) * per_metre) + 1)
-        for iy in range(spans[b, 1], spans[b, 3]):
-            for ix in range(spans[b, 0], spans[b, 2]):
-                first[iy * nx + ix + 1] += 1
-    first = np.cumsum(first)
-    touching, used = np.empty(first[-1], dtype=np.int64), first.copy()
-    for b in range(len(boxes)):
-        for iy in range(spans[b, 1], spans[b, 3]):
-            for ix in range(spans[b, 0], spans[b, 2]):
-                touching[used[iy * nx + ix]] = b
-                used[iy * nx + ix] += 1
-    owner, index = [0], [0]
-    for i in range(len(xyz)):
-        ix, iy = int((xyz[i, 0] - origin[0]) * per_metre), int((xyz[i, 1] - origin[1]) * per_metre)
-        if not (0 <= ix < nx and 0 <= iy < ny):
-            continue
-        for k in range(first[iy * nx + ix], first[iy * nx + ix + 1]):
-            b = touching[k]
-            if boxes[b, 0] <= xyz[i, 0] <= boxes[b, 2] and boxes[b, 1] <= xyz[i, 1] <= boxes[b, 3]:
-                owner.append(b)
-                index.append(i)
-    return np.array(owner[1:]), np.array(index[1:])
 
 
 def _refined(door: Door, sign: int, xyz: Float, count: NDArray[np.int32], solid: NDArray[np.bool_]) -> Door:

@@ -6,7 +6,7 @@ and more. That is less than the noise of many sensors, so the depth is the media
 height of a leaf, bin by bin along the wall. A recess is told from the wall's other face, seen through a gap
 in the data, by the side from which its points were seen; from a window by standing back down to the floor;
 from a set-back wall by width and lintel. Without viewpoints nothing can be said. Cost: one pass over the
-surfels, and sorting those of walls.
+surfels.
 """
 
 from __future__ import annotations
@@ -18,16 +18,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
+from floorplan_core.geometry.boxes import index_boxes
+from floorplan_core.geometry.depth_medians import Faces, median_depths
 from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.door_edges import points_in_boxes
 
 Float = NDArray[np.float64]
 
 _LEAF = (0.3, 1.8)  # m above the floor, where a leaf and no lintel is
 _LOW = (0.08, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
 _LINTEL = (2.2, 2.6)  # m above the floor: above a door
+_BANDS = (_LEAF, _LOW, _LINTEL)
 _DEPTH = (0.025, 0.125)  # m behind the face at which a leaf hangs; deeper are panes of outer walls
 _LEVEL, _SHARE = 0.02, 0.6  # m, and share of the leaf's depth: what lies less deep is the wall's face
 _REACH = (0.08, 0.22)  # m before and behind the face whose surfels are looked at
@@ -61,10 +63,9 @@ def find_shut_doors(
     walls = [p for p in planes if len(p.walls)]
     if not evidence.viewpoints or not walls:
         return []
-    near = points_in_boxes(evidence, np.array([_box(p) for p in walls]))
     found: list[Door] = []
-    for plane, rows in zip(walls, near, strict=True):
-        for start, end in recesses(depth_profile(plane, evidence, rows), config.min_width):
+    for plane, profile in zip(walls, depth_profiles(walls, evidence), strict=True):
+        for start, end in recesses(profile, config.min_width):
             made = _leaf(plane, start, end)
             if not any(_same(made, other, config.max_thickness) for other in (*doors, *found)):
                 found.append(made)
@@ -84,35 +85,22 @@ def _box(plane: LayoutPlane) -> tuple[float, float, float, float]:
     return (u0, v0, u1, v1) if plane.facing.axis == 0 else (v0, u0, v1, u1)
 
 
-def depth_profile(plane: LayoutPlane, evidence: Evidence, rows: NDArray[np.int64]) -> DepthProfile:
-    """The depths of the surfels ``rows`` that were seen from the side to which ``plane`` looks."""
-    axis, sign = plane.facing.axis, plane.facing.sign
-    mine = rows[evidence.view[rows, axis] * sign > _SIDEWAYS]
-    xyz = evidence.xyz[mine]
-    start = float(plane.walls.min()) - _FLANK
-    bins = int((float(plane.walls.max()) + _FLANK - start) / evidence.fine) + 1
-    along = np.clip(((xyz[:, 1 - axis] - start) / evidence.fine).astype(int), 0, bins - 1)
-    depth = (plane.offset - xyz[:, axis]) * sign
-
-    def over(heights: tuple[float, float]) -> Float:
-        inside = (xyz[:, 2] > heights[0]) & (xyz[:, 2] < heights[1])
-        return _medians(along[inside], depth[inside], bins)
-
-    leaf = over(_LEAF)
-    if not (np.nan_to_num(leaf, nan=-1.0) > _DEPTH[0]).any():  # nothing stands back: no more to look at
-        return DepthProfile(start, evidence.fine, leaf, leaf, leaf)
-    return DepthProfile(start, evidence.fine, leaf, over(_LOW), over(_LINTEL))
-
-
-def _medians(group: NDArray[np.int64], value: Float, groups: int) -> Float:
-    """(groups,) the upper median of the values of each group; NaN where there are too few."""
-    ordered = value[np.lexsort((value, group))]
-    count = np.bincount(group, minlength=groups)
-    first = np.cumsum(count) - count
-    known = count >= _ENOUGH
-    out = np.full(groups, np.nan)
-    out[known] = ordered[(first + count // 2)[known]]
-    return out
+def depth_profiles(walls: Sequence[LayoutPlane], evidence: Evidence) -> list[DepthProfile]:
+    """The depths of the surfels that were seen from the side to which each plane looks, by plane."""
+    starts = [float(plane.walls.min()) - _FLANK for plane in walls]
+    ends = [float(plane.walls.max()) + _FLANK for plane in walls]
+    faces = Faces(
+        axis=np.array([plane.facing.axis for plane in walls]),
+        sign=np.array([plane.facing.sign for plane in walls]),
+        offset=np.array([plane.offset for plane in walls]),
+        start=np.array(starts),
+        bins=np.array([int((b - a) / evidence.fine) + 1 for a, b in zip(starts, ends, strict=True)]),
+    )
+    boxes = np.array([_box(plane) for plane in walls])
+    near = index_boxes(boxes, evidence.origin, evidence.cell, evidence.shape)
+    seen = (evidence.xyz, evidence.view)
+    depths = median_depths(faces, near, *seen, np.array(_BANDS), evidence.fine, _SIDEWAYS, _ENOUGH)
+    return [DepthProfile(a, evidence.fine, *of) for a, of in zip(starts, depths, strict=True)]
 
 
 def recesses(profile: DepthProfile, narrowest: float) -> list[tuple[float, float]]:
