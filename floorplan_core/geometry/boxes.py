@@ -38,7 +38,8 @@ def index_boxes(boxes: Float, origin: Float, cell: float, shape: tuple[int, int]
 def points_in_boxes(points: Float, index: BoxIndex) -> list[Int]:
     """For each box the rows of the (N, 2 or 3) ``points`` in it (its edges included), in order.
 
-    Points that lie more than a cell outside the grid are in none. Cost: one pass over the points, and one over those near a box.
+    Points that lie more than a cell outside the grid are in none.
+    Cost: one pass over the points, and one over those near a box.
     """
     count = len(index.boxes)
     if not count:
