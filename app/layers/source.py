@@ -10,7 +10,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.exporters.door_symbols import Leaf, leaves
+from floorplan_core.exporters.door_symbols import Leaf, swings
 from floorplan_core.exporters.walls import Poche, poche, predicted_floor
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
 
@@ -59,7 +59,7 @@ class PlanSource:
     @cached_property
     def swings(self) -> tuple[tuple[Leaf, ...], ...]:
         """The leaves of each opening of :attr:`walls`."""
-        return tuple(leaves(opening, self.drawn.regions) for opening in self.walls.openings)
+        return tuple(swings(self.walls.openings, self.drawn.regions))
 
     @cached_property
     def predicted(self) -> Any:

@@ -60,18 +60,32 @@ def differs(one: Sequence[Span], other: Sequence[Span]) -> bool:
 
 
 def _faces(regions: Sequence[Region], axis: int, sign: int) -> list[tuple[float, float, float]]:
-    """(position across, start, end) of the edges square to ``axis`` with the inside at ``-sign``."""
-    faces = []
-    for region in regions:
-        ring = shapely.get_coordinates(shapely.orient_polygons(region.polygon).exterior)
-        for a, b in itertools.pairwise(ring.tolist()):
-            along = 1 - axis
-            # Inside is to the left: a top face (axis 1, sign +1) runs towards -x, a right face towards +y.
-            runs = (b[along] - a[along]) * sign * (1 if axis == 0 else -1)
-            if abs(a[axis] - b[axis]) < STRAIGHT and runs > STRAIGHT:
-                start, end = sorted((a[along], b[along]))
-                faces.append((a[axis], start, end))
-    return faces
+    """(position across, start, end) of the edges square to ``axis`` with the inside at ``-sign``.
+
+    Edges of one region that go on in one line are one face: a corner between them is no corner of the room.
+    """
+    return [face for region in regions for face in _joined(_edges(region, axis, sign))]
+
+
+def _edges(region: Region, axis: int, sign: int) -> list[tuple[float, float, float]]:
+    ring = shapely.get_coordinates(shapely.orient_polygons(region.polygon).exterior)
+    along, edges = 1 - axis, []
+    for a, b in itertools.pairwise(ring.tolist()):
+        # Inside is to the left: a top face (axis 1, sign +1) runs towards -x, a right face towards +y.
+        runs = (b[along] - a[along]) * sign * (1 if axis == 0 else -1)
+        if abs(a[axis] - b[axis]) < STRAIGHT and runs > STRAIGHT:
+            edges.append((a[axis], *sorted((a[along], b[along]))))
+    return edges
+
+
+def _joined(edges: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
+    joined: list[tuple[float, float, float]] = []
+    for face, start, end in sorted(edges):
+        if joined and face - joined[-1][0] < STRAIGHT and start - joined[-1][2] < STRAIGHT:
+            joined[-1] = (joined[-1][0], joined[-1][1], end)
+        else:
+            joined.append((face, start, end))
+    return joined
 
 
 def _visible(face: float, start: float, end: float, edges: Float, sign: int) -> float:

@@ -3,8 +3,8 @@
 A door that was seen shut is drawn shut: its leaf lies in the middle of the wall, and sweeps nothing.
 
 A survey does not show it, so the drawing follows the usual convention: into a room rather than a corridor,
-the hinge at the jamb nearer to a corner, the leaf clear of walls. Ties: towards the lower coordinate, hinge
-at the start.
+the hinge at the jamb nearer to a corner, the leaf clear of walls and of other doors' leaves. Ties: towards
+the lower coordinate, hinge at the start.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ Float = NDArray[np.float64]
 ARC_STEPS = 12
 CLEAR = 0.97  # share of the swing that must lie on floor
 DOUBLE = 1.15  # metres: wider doors get two leaves
+APART = 0.1  # metres between the swings of two doors, where there is a choice
 REACH = 0.1  # metres behind the face where the region that a door opens into is looked for
 
 
@@ -52,12 +53,22 @@ class Leaf:
         return shapely.Polygon(np.vstack([self.hinge[None], self.hinge + np.cos(t) * u + np.sin(t) * v]))
 
 
-def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
-    """The leaves of a door; none for an opening."""
+def swings(openings: Sequence[Opening], regions: Sequence[Region]) -> list[tuple[Leaf, ...]]:
+    """The leaves of every opening, in their order; none swings over floor that one before it sweeps."""
+    made: list[tuple[Leaf, ...]] = []
+    swept: list[Any] = []
+    for opening in openings:
+        made.append(leaves(opening, regions, swept))
+        swept += [leaf.sector for leaf in made[-1] if not leaf.shut]
+    return made
+
+
+def leaves(opening: Opening, regions: Sequence[Region], swept: Sequence[Any] = ()) -> tuple[Leaf, ...]:
+    """The leaves of a door; none for an opening. Where there is a choice they keep off ``swept`` floor."""
     if opening.door.kind != "door":
         return ()
     if opening.door.turn:
-        return _of_wing(opening, regions)
+        return _of_wing(opening, regions, swept)
     if opening.door.shut:
         return _shut(opening)
     options: list[tuple[tuple[bool, bool, float], int, tuple[Leaf, ...], Region | None]] = []
@@ -69,14 +80,21 @@ def leaves(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
             cost = _cost(opening, region, hinge)
             options.append((cost, len(options), _make(opening, direction, hinge), region))
     options.sort(key=lambda option: option[:2])
-    return next((made for _, _, made, region in options if _clear(made, region)), options[0][2])
+    clear = [made for _, _, made, region in options if _clear(made, region)]
+    return next((made for made in clear if not _meets(made, swept)), (clear or [options[0][2]])[0])
 
 
-def _of_wing(opening: Opening, regions: Sequence[Region]) -> tuple[Leaf, ...]:
+def _meets(made: tuple[Leaf, ...], swept: Sequence[Any]) -> bool:
+    others = np.array(swept, dtype=object)
+    return any(bool(np.any(shapely.dwithin(leaf.sector, others, APART))) for leaf in made if swept)
+
+
+def _of_wing(opening: Opening, regions: Sequence[Region], swept: Sequence[Any]) -> tuple[Leaf, ...]:
     """The same in the axes of the door's wall, brought into the plan."""
     door = opening.door
     own = [replace(r, polygon=shapely.transform(r.polygon, door.in_own)) for r in regions]
-    made = leaves(replace(opening, door=replace(door, turn=0.0)), own)
+    turned = [shapely.transform(sector, door.in_own) for sector in swept]
+    made = leaves(replace(opening, door=replace(door, turn=0.0)), own, turned)
     return tuple(Leaf(*door.in_plan(np.array([leaf.hinge, leaf.tip, leaf.closed]))) for leaf in made)
 
 

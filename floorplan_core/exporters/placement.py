@@ -23,6 +23,8 @@ LEADING = 1.32  # line height over font size
 SMALLEST = 0.64  # of the wanted size
 LEVEL, TURNED = (1.0, 0.87, 0.76), (1.0, 0.82)  # sizes to try: level text shrinks a little before it turns
 BOLD = 1.1  # width of the bold name over that of the regular face
+NEAREST = 64  # spots of which those with much room around come first
+CENTRED = 2.0  # how much farther from the centroid a spot may lie for its distance from the walls
 GRID = 13  # candidate spots per side of the region's bounds
 
 
@@ -93,12 +95,16 @@ def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float, turned: b
 
 
 def _spots(free: Any, floor: Any, home: Float) -> Float:
-    """(K, 2) candidate centres, nearest to ``home`` first; ties by row."""
+    """(K, 2) candidate centres, nearest to ``home`` first, of these those with room around; ties by row."""
     corners = shapely.get_coordinates(floor)
     grid = np.stack(np.meshgrid(_ticks(corners[:, 0]), _ticks(corners[:, 1])), axis=-1).reshape(-1, 2)
     inside = grid[shapely.contains_xy(free, grid)]
-    near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")
-    return np.vstack([home, inside[near]])
+    far = np.round(np.hypot(*(inside - home).T), 6)
+    order = np.argsort(far, kind="stable")
+    first = order[:NEAREST]
+    room = shapely.distance(shapely.points(inside[first]), free.boundary)
+    order[:NEAREST] = first[np.argsort(np.round(far[first] - CENTRED * room, 6), kind="stable")]
+    return np.vstack([home, inside[order]])
 
 
 def _ticks(values: Float) -> Float:

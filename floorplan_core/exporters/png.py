@@ -5,6 +5,7 @@ Top views in the manhattan frame, 1600 pixels on the longer side, all three to t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,24 +15,28 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from floorplan_core.exporters.palette import rgb
-from floorplan_core.exporters.placement import LEADING, Line, block_size, place
+from floorplan_core.exporters.placement import Line, Placed, block_size, place
 from floorplan_core.exporters.png_canvas import (
+    AIR,
+    BAR_SHARE,
+    NARROW,
     ROW,
     Colour,
+    Swatch,
     View,
+    draw_block,
     draw_caption,
     draw_dashed,
     draw_rings,
     draw_scale_bar,
-    draw_text,
     finish,
     fit_view,
     paper,
     plan_bounds,
     save,
 )
-from floorplan_core.exporters.walls import predicted_cells
-from floorplan_core.model import FREE, Door, FloorPlan, Region
+from floorplan_core.exporters.walls import Opening, Poche, poche, predicted_cells
+from floorplan_core.model import FREE, FloorPlan, Region
 from floorplan_core.model.floor_plan import regions_mask
 
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
@@ -49,7 +54,7 @@ HATCH, HATCH_STEP = 3, 12  # pixels: predicted floor
 LIGHTER = 0.7  # how far predicted floor goes towards white
 WALL_LINE = 4  # pixels
 SHUT_LEAF = 3  # pixels
-DOOR_DEPTH = 0.25  # metres: a door without a known thickness
+DOOR_DEPTH = 0.25  # metres: drawn at least so deep
 NAME, AREA, PAD = 30, 17, 5  # pixels
 
 
@@ -128,22 +133,34 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
 def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (c)."""
     view = view or fit_view(plan_bounds(plan))
-    image, draw = finish(_floors(plan, view), _floor_colours(), view)
+    walls, names = poche(plan), [_place_name(view, region) for region in plan.regions]
+    image, draw = finish(_ground(plan, view, walls, names), _ground_colours(), view)
     for region in plan.regions:
         _draw_sides(draw, view, region)
-    for door in plan.doors:
-        _draw_door(draw, view, door)
-    for region in plan.regions:
-        _draw_name(draw, view, region)
-    total = sum(r.area for r in plan.regions)
-    entries: list[tuple[str, Colour | None]] = [("room", ROOM), ("corridor", CORRIDOR), ("door", DOOR)]
-    entries += [("hatched: predicted", None), (f"{len(plan.regions)} regions, {total:.1f} m²", None)]
-    _draw_strip(draw, view, entries, INK)
+    for opening in walls.openings:
+        _draw_door(draw, view, opening)
+    for placed in names:
+        draw_block(draw, placed, INK)
+    _draw_strip(draw, view, _plan_legend(plan), INK)
     return image
 
 
+def _plan_legend(plan: FloorPlan) -> list[tuple[str, Any]]:
+    """Words and swatches: those of what the plan has."""
+    entries: list[tuple[str, Any]] = [("room", ROOM), ("corridor", CORRIDOR), ("door", DOOR)]
+    if any(door.shut for door in plan.doors):
+        entries.append(("shut door", Swatch(DOOR, "leaf")))
+    if any(region.speculated_fraction > 0 for region in plan.regions):
+        entries.append(("predicted", Swatch(ROOM, "hatched")))
+    if any(side.speculated for region in plan.regions for side in region.sides):
+        entries.append(("guessed side", Swatch(WHITE, "dashed")))
+    total, count = sum(r.area for r in plan.regions), len(plan.regions)
+    return [*entries, (f"{count} region{'s' * (count != 1)}, {total:.1f} m²", None)]
+
+
 def _draw_strip(draw: Any, view: View, entries: list[tuple[str, Any]], ink: Colour) -> None:
-    draw_caption(draw, entries, view.height + 10 + ROW / 2, ink)
+    bar = 0 if view.width < NARROW else round((BAR_SHARE + 0.05) * view.width)
+    draw_caption(draw, entries, view.height + 10 + ROW / 2, ink, view.width - bar)
     draw_scale_bar(draw, view, view.width - 24, view.height + view.strip - 10 - ROW / 2 + 10, ink)
 
 
@@ -166,8 +183,11 @@ def _dotted(codes: NDArray[np.uint8], view: View, axis: int, offset: float, code
             lines[max(0, at - 1) : at + 1, i::DOT_STEP] = code
 
 
-def _floors(plan: FloorPlan, view: View) -> NDArray[np.uint8]:
-    """Codes of :func:`_floor_colours`: regions by their label; where they are predicted, hatched."""
+def _ground(plan: FloorPlan, view: View, walls: Poche, names: Sequence[Placed]) -> NDArray[np.uint8]:
+    """Codes of :func:`_ground_colours`: regions by their label; hatched where predicted; walls filled.
+
+    Hatching leaves out the ground of the ``names``: they can be read there.
+    """
     code = np.zeros((view.height, view.width), dtype=np.uint8)
     for region in plan.regions:
         window, inside = view.window(region.polygon)
@@ -175,14 +195,30 @@ def _floors(plan: FloorPlan, view: View) -> NDArray[np.uint8]:
     rows, columns = np.indices(code.shape, sparse=True)
     gap = (rows + columns) % HATCH_STEP >= HATCH
     pale = view.sample(predicted_cells(plan), plan.grid.origin, plan.grid.cell, False) & gap
+    for placed in names:
+        pale[_text_window(view, placed)] = False
     code[pale & (code > 0)] += len(FLOORS)
+    for wall in shapely.get_parts(walls.observed):
+        if wall.geom_type == "Polygon":
+            window, inside = view.window(wall)
+            code[window][inside] = 2 * len(FLOORS) + 1
     return code
 
 
-def _floor_colours() -> list[Colour]:
-    """The ground, the floors, and the same floors lighter."""
+def _ground_colours() -> list[Colour]:
+    """The paper, the floors, the same floors lighter, the walls."""
     lighter = [(_lighter(r), _lighter(g), _lighter(b)) for r, g, b in FLOORS]
-    return [WHITE, *FLOORS, *lighter]
+    return [WHITE, *FLOORS, *lighter, INK]
+
+
+def _text_window(view: View, placed: Placed) -> tuple[slice, slice]:
+    """Rows and columns under a name, row 0 lowest."""
+    width, height = block_size(placed.lines)[:: -1 if placed.turned else 1]
+    half, y = (width / 2 + AIR, height / 2 + AIR), view.height - placed.y
+    return (
+        slice(max(0, round(y - half[1])), max(0, round(y + half[1]))),
+        slice(max(0, round(placed.x - half[0])), max(0, round(placed.x + half[0]))),
+    )
 
 
 def _lighter(channel: int) -> int:
@@ -201,30 +237,21 @@ def _draw_sides(draw: Any, view: View, region: Region) -> None:
             draw.line([tuple(a), tuple(b)], fill=INK, width=WALL_LINE)
 
 
-def _draw_door(draw: Any, view: View, door: Door) -> None:
-    """A yellow box in the wall; openings without a leaf have no outline."""
-    half = max(door.thickness, DOOR_DEPTH) / 2
-    ink = INK if door.kind == "door" else None
-    if door.turn:
-        a, b = door.line()
-        across = half * np.array([a[1] - b[1], b[0] - a[0]]) / door.width
-        corners = view.pixels(np.array([a - across, b - across, b + across, a + across])).round()
-        draw.polygon([tuple(p) for p in corners.tolist()], fill=DOOR, outline=ink)
-    else:
-        low, high = door.line() - half, door.line() + half
-        low[:, 1 - door.axis], high[:, 1 - door.axis] = door.start, door.end
-        (x0, y1), (x1, y0) = view.pixels(np.array([low[0], high[1]])).round().tolist()
-        draw.rectangle([x0, y0, x1, y1], fill=DOOR, outline=ink, width=1)
+def _draw_door(draw: Any, view: View, opening: Opening) -> None:
+    """A yellow box as deep as the wall, or as can be seen; openings without a leaf have no outline."""
+    door = opening.door
+    low, high = view.pixels(opening.faces.reshape(4, 2)).reshape(2, 2, 2)
+    depth = float(np.hypot(*(high - low)[0]))
+    grown = max(0.0, view.scale * DOOR_DEPTH - depth) / 2 / max(depth, 1e-9) * (high - low)
+    a, b, c, d = (tuple(p) for p in np.concatenate([low - grown, (high + grown)[::-1]]).round().tolist())
+    draw.polygon([a, b, c, d], fill=DOOR, outline=INK if door.kind == "door" else None)
     if door.shut:  # its leaf, across the opening
-        draw.line([tuple(p) for p in view.pixels(door.line()).round().tolist()], fill=INK, width=SHUT_LEAF)
+        middle = opening.faces.mean(axis=0)
+        draw.line([tuple(p) for p in view.pixels(middle).round().tolist()], fill=INK, width=SHUT_LEAF)
 
 
-def _draw_name(draw: Any, view: View, region: Region) -> None:
+def _place_name(view: View, region: Region) -> Placed:
     """The number or name, and the area where there is room for it."""
     floor = shapely.transform(region.polygon, view.pixels)
     lines = (Line(region.name, NAME, "name"), Line(f"{region.area:.1f} m²", AREA, "area"))
-    placed = place(lines, floor, PAD)
-    top = placed.y - block_size(placed.lines)[1] / 2
-    for line in placed.lines:
-        draw_text(draw, (placed.x, top + line.size * LEADING / 2), line.text, round(line.size), INK, 0.5)
-        top += line.size * LEADING
+    return place(lines, floor, PAD)

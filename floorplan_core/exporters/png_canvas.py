@@ -5,6 +5,7 @@ Geometry is along the pixel axes (manhattan frame), so filled areas are exact ma
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from floorplan_core.exporters.placement import LEADING, Placed, block_size
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.model import FloorPlan
 
@@ -26,9 +28,13 @@ Bounds = tuple[float, float, float, float]
 LONG_SIDE = 1600  # pixels
 BORDER = 1.0  # metres around the plan
 ROW = 44  # pixels: height of a row of the strip under the plan
+AIR = 3  # pixels around names: hatching leaves them free
 NARROW = 1100  # pixels: narrower pictures have caption and scale bar in two rows
 BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres
 BAR_SHARE = 0.2  # of the picture's width that the scale bar may take
+CAPTION = 18  # pixels: its text
+SIGN = (26, 16)  # pixels: width and height of its swatches
+WHITE = (255, 255, 255)
 SUPERSCRIPT, RAISE, CAP = 0.62, 0.32, 0.72  # of the font size: a raised 2, its lift; height of capitals
 PNG_LEVEL = 1  # zlib: the fastest; pictures of flat colours are small anyway
 
@@ -116,7 +122,7 @@ def font(size: int) -> Any:
 
 
 def draw_text(
-    draw: Any, at: tuple[float, float], text: str, size: int, ink: Colour, align: float = 0.0
+    draw: Any, at: tuple[float, float], text: str, size: int, ink: Colour | int, align: float = 0.0
 ) -> float:
     """Text in the middle of whose height lies ``at``; 0 starts there, 0.5 is centred. Returns its width.
 
@@ -131,6 +137,20 @@ def draw_text(
         draw.text((x, baseline - (RAISE * size if raised else 0)), t, fill=ink, font=f, anchor="ls")
         x += width
     return sum(widths)
+
+
+def draw_block(draw: Any, placed: Placed, ink: Colour) -> None:
+    """Lines under each other, centred on their place; turned ones read upwards."""
+    width, height = (math.ceil(v) for v in block_size(placed.lines))
+    mask = Image.new("L", (width + 2 * AIR, height + 2 * AIR))
+    writer, top = ImageDraw.Draw(mask), float(AIR)
+    for line in placed.lines:
+        middle = mask.width / 2, top + line.size * LEADING / 2
+        draw_text(writer, middle, line.text, round(line.size), 255, 0.5)
+        top += line.size * LEADING
+    if placed.turned:
+        mask = mask.transpose(Image.Transpose.ROTATE_90)
+    draw.bitmap((round(placed.x - mask.width / 2), round(placed.y - mask.height / 2)), mask, fill=ink)
 
 
 def draw_rings(draw: Any, view: View, polygon: Any, colour: Colour, width: int) -> None:
@@ -157,14 +177,42 @@ def draw_scale_bar(draw: Any, view: View, x: float, y: float, colour: Colour) ->
     draw.text(((left + x) / 2, y - 8), f"{length:g} m", fill=colour, font=font(18), anchor="mb")
 
 
-def draw_caption(draw: Any, entries: Iterable[tuple[str, Colour | None]], y: float, ink: Colour) -> None:
-    """Swatches and words from the left; an entry without a colour is text only."""
-    x = 24.0
-    for text, colour in entries:
-        if colour is not None:
-            draw.rectangle([x, y - 8, x + 22, y + 8], fill=colour, outline=ink)
-            x += 32
-        x += draw_text(draw, (x, y), text, 18, ink) + 28
+@dataclass(frozen=True)
+class Swatch:
+    """What stands before a word of the caption."""
+
+    colour: Colour
+    look: str = "plain"  # or "hatched", "dashed", "leaf"
+
+
+def draw_caption(
+    draw: Any, entries: Iterable[tuple[str, Colour | Swatch | None]], y: float, ink: Colour, width: int
+) -> None:
+    """Swatches and words from the left, in rows no longer than ``width``; without a swatch text only."""
+    left = 24.0
+    x = left
+    for text, sign in entries:
+        needed = draw.textlength(text, font=font(CAPTION)) + (SIGN[0] + 10 if sign is not None else 0)
+        if x > left and x + needed > width - left:
+            x, y = left, y + ROW
+        if sign is not None:
+            _draw_swatch(draw, x, y, sign if isinstance(sign, Swatch) else Swatch(sign), ink)
+            x += SIGN[0] + 10
+        x += draw_text(draw, (x, y), text, CAPTION, ink) + 28
+
+
+def _draw_swatch(draw: Any, x: float, y: float, swatch: Swatch, ink: Colour) -> None:
+    w, h = SIGN
+    x0, y0, x1, y1 = x, y - h / 2, x + w, y + h / 2
+    if swatch.look == "dashed":
+        draw_dashed(draw, np.array([x0, y]), np.array([x1, y]), ink, 4, 6.0)
+        return
+    draw.rectangle([x0, y0, x1, y1], fill=swatch.colour, outline=ink)
+    if swatch.look == "hatched":
+        for start in range(0, w - h + 1, 5):
+            draw.line([(x0 + start + 1, y1 - 1), (x0 + start + h - 1, y0 + 1)], fill=WHITE, width=2)
+    elif swatch.look == "leaf":
+        draw.line([(x0, y), (x1, y)], fill=ink, width=3)
 
 
 def save(image: Image.Image, path: Any) -> None:

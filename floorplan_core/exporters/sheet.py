@@ -101,12 +101,13 @@ def _below(
 def _beside(
     origin: tuple[float, float], size: tuple[float, float], drawing: tuple[float, float], scale: int
 ) -> Sheet:
-    """Blocks in a column to the right; it ends where the plan ends."""
+    """Blocks in a column to the right: the title where the plan begins, the others where it ends."""
     column = sum(h for _, h in BLOCKS) + BLOCK_GAP * (len(BLOCKS) - 1)
     inner = max(drawing[1], column)
     left = MARGIN + drawing[0] + GAP
     tops = np.cumsum([MARGIN + inner - column, *(h + BLOCK_GAP for _, h in BLOCKS[:-1])]).tolist()
     corner = (MARGIN + DIMENSIONS, MARGIN + DIMENSIONS + (inner - drawing[1]) / 2)
+    tops[0] = min(tops[0], corner[1])
     width = left + COLUMN + MARGIN
     blocks = tuple((left, top) for top in tops)
     return Sheet(scale, width, inner + 2 * MARGIN, origin, corner, size, blocks, True)

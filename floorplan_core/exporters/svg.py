@@ -15,7 +15,7 @@ import numpy as np
 import shapely
 
 from floorplan_core.exporters import palette
-from floorplan_core.exporters.door_symbols import Leaf, leaves
+from floorplan_core.exporters.door_symbols import Leaf, swings
 from floorplan_core.exporters.sheet import Sheet, lay_out
 from floorplan_core.exporters.svg_blocks import draw_blocks
 from floorplan_core.exporters.svg_canvas import FONT, SvgCanvas, number
@@ -49,16 +49,16 @@ def svg_text(plan: FloorPlan) -> str:
     """The drawing of ``plan`` as the text of an SVG 1.1 document."""
     walls = poche(plan)
     sheet = lay_out(_bounds(plan, walls))
-    swings = [leaves(opening, plan.regions) for opening in walls.openings]
+    swung = swings(walls.openings, plan.regions)
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
     _draw_rooms(canvas, sheet, plan)
-    swept = _swept(sheet, swings)
+    swept = _swept(sheet, swung)
     labels = place_labels(sheet, plan, swept)
     text = label_ground(labels)
     _draw_predicted(canvas, sheet, plan, text)
     _draw_walls(canvas, sheet, walls)
-    _draw_doors(canvas, sheet, walls, swings)
+    _draw_doors(canvas, sheet, walls, swung)
     openings = [sheet.geometry(o.polygon) for o in walls.openings]
     draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]))
     with canvas.group(id="annotation", fill=palette.INK):
@@ -154,9 +154,9 @@ def _draw_walls(canvas: SvgCanvas, sheet: Sheet, walls: Poche) -> None:
         )
 
 
-def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swings: list[tuple[Leaf, ...]]) -> None:
+def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swung: list[tuple[Leaf, ...]]) -> None:
     with canvas.group(id="doors", fill="none", stroke=palette.DOOR.accent, stroke_width=FINE):
-        for opening, made in zip(walls.openings, swings, strict=True):
+        for opening, made in zip(walls.openings, swung, strict=True):
             door = opening.door
             kind = f"shut {door.kind}" if door.shut else door.kind
             title = f"{kind.capitalize()} {door.id}: {door.width:.2f} m, confidence {door.confidence:.2f}"
@@ -188,6 +188,6 @@ def _draw_leaf(canvas: SvgCanvas, sheet: Sheet, leaf: Leaf) -> None:
     canvas.add("path", d=f"M{start}A{radius},{radius} 0 0 {sweep} {end}")
 
 
-def _swept(sheet: Sheet, swings: list[tuple[Leaf, ...]]) -> list[Any]:
+def _swept(sheet: Sheet, swung: list[tuple[Leaf, ...]]) -> list[Any]:
     """Ground that doors sweep, on the page: labels keep off."""
-    return [sheet.geometry(leaf.sector) for made in swings for leaf in made]
+    return [sheet.geometry(leaf.sector) for made in swung for leaf in made]

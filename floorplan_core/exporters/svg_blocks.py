@@ -14,6 +14,10 @@ TITLE, SCALE, BODY, SMALL = 4.6, 3.4, 2.2, 1.9  # mm
 ROW = 3.9  # mm from line to line
 RULE = 0.25  # mm
 SWATCH = (7.0, 3.2)  # mm
+LEGEND_TOP, LEGEND_DEPTH = 9.4, 22.6  # mm below the block's top where the legend begins, and its depth
+LEGEND_ROW, LEGEND_AIR = 5.4, 1.0  # mm from entry to entry where few are, and at least between swatches
+LEAF = 0.32  # mm, as thick as the leaves in the plan
+SIGNS = 4  # entries of the first column: walls and floors
 BAR_LENGTHS = (1, 2, 5, 10, 20, 50, 100, 200)  # metres
 BAR_SHARE = 0.62  # of the block's width that the scale bar may take
 NORTH = 6.5  # mm, radius of the arrow's circle
@@ -64,6 +68,8 @@ def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
     observed = 100.0 * free / total if total else 0.0
     area = sum(r.area for r in plan.regions)
     storey = f" · storey {plan.storey}" if plan.storey else ""
+    height = plan.grid.slice_height
+    slice_at = f" · slice {height:.2f} m above the floor" if height > 0 else ""  # a grid map has no heights
     counts = f"{_count(len(plan.regions), 'region')} · {_count(len(plan.doors), 'door')}{storey}"
     return [
         f"{area:.2f} m² net internal area to wall faces; {observed:.0f} % observed",
@@ -71,7 +77,7 @@ def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
         f"Scale 1:{sheet.scale} when printed on {sheet.paper} at full size",
         f"Drawn along the walls: {math.degrees(plan.frame.yaw):.2f}° from the survey's axes "
         f"(support {100 * plan.frame.support:.0f} %)",
-        f"Doors swing by convention · slice {plan.grid.slice_height:.2f} m above the floor",
+        f"Doors swing by convention{slice_at}",
     ]
 
 
@@ -96,32 +102,48 @@ def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+    """Walls and floors in the first column; labels and doors, those that the plan has, in the second."""
     with canvas.group(id="legend"):
         _draw_rule(canvas, sheet, 1, x, y)
         canvas.text("Legend", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
-        entries = legend_entries(plan)
+        entries, doors = legend_entries(plan), door_kinds(plan)
         half = _width(sheet, 1) / 2
+        pitch = min(LEGEND_ROW, LEGEND_DEPTH / (len(entries) + len(doors) - SIGNS))
+        size = SWATCH[0], min(SWATCH[1], pitch - LEGEND_AIR)
         for i, (text, look) in enumerate(entries):
-            left, top = x + half * (i // 4), y + 9.4 + (i % 4) * 5.4
+            second = i >= SIGNS
+            left, top = x + half * second, y + LEGEND_TOP + (i - SIGNS * second) * pitch
             if text == "Floor, predicted":
-                canvas.box(left, top, *SWATCH, fill=palette.ROOM.tint)
-            canvas.box(left, top, *SWATCH, **look)
-            size = _fitting(text, BODY, half - SWATCH[0] - 3)
-            canvas.text(text, left + SWATCH[0] + 2, top + 2.4, size)
-        _draw_door_swatches(canvas, x + half, y + 9.4, len(entries) - 4)
+                canvas.box(left, top, *size, fill=palette.ROOM.tint)
+            canvas.box(left, top, *size, **look)
+            _draw_word(canvas, text, left, top, size, half)
+        for i, text in enumerate(doors, len(entries) - SIGNS):
+            top = y + LEGEND_TOP + i * pitch
+            _draw_door_swatch(canvas, text, x + half, top, size)
+            _draw_word(canvas, text, x + half, top, size, half)
 
 
-def _draw_door_swatches(canvas: SvgCanvas, x: float, y: float, row: int) -> None:
-    w, h = SWATCH
-    for i, (text, dashed) in enumerate((("Door", False), ("Opening", True))):
-        top = y + (row + i) * 5.4
-        canvas.box(x, top, w, h, fill=palette.DOOR.tint)
-        dash = "1.2 0.8" if dashed else None
-        for edge in (top, top + h):
-            canvas.line(
-                (x, edge), (x + w, edge), stroke=palette.DOOR.accent, stroke_width=0.2, stroke_dasharray=dash
-            )
-        canvas.text(text, x + w + 2, top + 2.4, BODY)
+def door_kinds(plan: FloorPlan) -> list[str]:
+    """What the legend says of doors: a door stood shut only where one did."""
+    return ["Door", *(["Door, found shut"] if any(d.shut for d in plan.doors) else []), "Opening"]
+
+
+def _draw_word(
+    canvas: SvgCanvas, text: str, left: float, top: float, size: tuple[float, float], column: float
+) -> None:
+    fitting = _fitting(text, BODY, column - SWATCH[0] - 3)
+    canvas.text(text, left + SWATCH[0] + 2, top + size[1] / 2 + 0.8, fitting)
+
+
+def _draw_door_swatch(canvas: SvgCanvas, text: str, x: float, top: float, size: tuple[float, float]) -> None:
+    w, h = size
+    canvas.box(x, top, w, h, fill=palette.DOOR.tint)
+    look: dict[str, Any] = {"stroke": palette.DOOR.accent, "stroke_width": 0.2}
+    dash = "1.2 0.8" if text == "Opening" else None
+    for edge in (top, top + h):
+        canvas.line((x, edge), (x + w, edge), stroke_dasharray=dash, **look)
+    if text == "Door, found shut":  # its leaf, across the opening
+        canvas.line((x, top + h / 2), (x + w, top + h / 2), stroke=palette.DOOR.accent, stroke_width=LEAF)
 
 
 def _draw_scale_bar(canvas: SvgCanvas, sheet: Sheet, x: float, y: float) -> None:

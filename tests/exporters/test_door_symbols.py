@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import shapely
 
-from floorplan_core.exporters.door_symbols import leaves
+from floorplan_core.exporters.door_symbols import leaves, swings
 from floorplan_core.exporters.svg import svg_text
-from floorplan_core.exporters.walls import Opening
+from floorplan_core.exporters.walls import Opening, poche
 from floorplan_core.model import Door
-from tests.factories import small_flat
+from tests.factories import DoorSpec, RoomSpec, make_plan, small_flat
 
 DOOR = Door("d1", ("p1",), 0, 4.06, 2.0, 2.9, thickness=0.12)
 
@@ -44,3 +44,16 @@ def test_the_drawing_says_shut():
     text = svg_text(replace(plan, doors=(replace(one, shut=True), *plan.doors[1:])))
     assert f"Shut door {one.id}" in text
     assert text.count("<path") < svg_text(plan).count("<path")  # one arc less
+
+
+def test_doors_side_by_side_do_not_swing_into_each_other():
+    """Two doors into one corner of a room: the later one opens elsewhere."""
+    flat = RoomSpec((0.0, 0.0, 4.0, 4.0)), RoomSpec((4.15, 0.0, 8.0, 4.0)), RoomSpec((0.0, 4.15, 8.0, 6.0))
+    plan = make_plan(
+        flat,
+        (DoorSpec(0, 4.075, 2.9, 3.8, joins=(0, 1)), DoorSpec(1, 4.075, 2.9, 3.8, joins=(0, 2))),
+    )
+    (one,), (other,) = swings(poche(plan).openings, plan.regions)
+    assert one.sector.distance(other.sector) > 0.0
+    alone = [leaves(opening, plan.regions)[0].sector for opening in poche(plan).openings]
+    assert alone[0].intersects(alone[1])

@@ -8,12 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PIL import Image
+import shapely
+from PIL import Image, ImageDraw
 
 from floorplan_core.errors import UsageError
 from floorplan_core.exporters import png
 from floorplan_core.exporters.filmstrip import filmstrip_image, filmstrip_png
-from floorplan_core.exporters.png_canvas import LONG_SIDE, View, fit_view, plan_bounds
+from floorplan_core.exporters.placement import Line, Placed
+from floorplan_core.exporters.png_canvas import LONG_SIDE, View, draw_block, fit_view, plan_bounds
+from floorplan_core.exporters.walls import poche
 from floorplan_core.model import FREE, FloorPlan
 from tests.factories import l_corridor, office, small_flat
 
@@ -72,6 +75,23 @@ def test_plan_colours(plan: FloorPlan, view: View) -> None:
     assert colour_at(image, view, 9.0, 6.2) == png.CORRIDOR
     assert colour_at(image, view, 0.95, 4.675) == png.DOOR
     assert colour_at(image, view, 10.0, 12.0) == png.WHITE
+
+
+def test_walls_are_solid_from_face_to_face(plan: FloorPlan, view: View) -> None:
+    image = np.asarray(png.plan_image(plan, view))
+    walls = poche(plan).observed
+    xy = shapely.get_coordinates(shapely.point_on_surface(shapely.get_parts(walls)))
+    at = view.pixels(xy).astype(int)
+    assert {tuple(c) for c in image[at[:, 1], at[:, 0]].tolist()} == {png.INK}
+
+
+def test_a_turned_name_reads_upwards() -> None:
+    canvas = Image.new("RGB", (200, 200), png.WHITE)
+    lines = (Line("Corridor", 30, "name"),)
+    draw_block(ImageDraw.Draw(canvas), Placed(lines, 100, 100, True, True), png.INK)
+    rows, columns = np.nonzero(np.asarray(canvas.convert("L")) < 128)
+    assert np.ptp(rows) > 2 * np.ptp(columns)
+    assert abs(rows.mean() - 100) < 5 and abs(columns.mean() - 100) < 8
 
 
 def test_predicted_floor_is_hatched_in_the_plan(plan: FloorPlan, view: View) -> None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import shapely
 
@@ -63,6 +64,22 @@ def test_every_room_has_its_name_area_and_tooltip() -> None:
 def test_dimensions_are_the_clear_lengths() -> None:
     shown = texts(group(parse(small_flat()), "dimensions"))
     assert {"4.20", "3.25", "7.60", "3.40"} <= set(shown)
+
+
+def test_a_face_in_two_pieces_is_dimensioned_once() -> None:
+    plan = small_flat()
+    ring = shapely.get_coordinates(plan.regions[0].polygon.exterior)
+    middle = (ring[:-1] + ring[1:]) / 2
+    cut = shapely.Polygon(np.column_stack([ring[:-1], middle]).reshape(-1, 2))
+    split = replace(plan, regions=(replace(plan.regions[0], polygon=cut), *plan.regions[1:]))
+    assert texts(group(parse(split), "dimensions")) == texts(group(parse(plan), "dimensions"))
+
+
+def test_the_legend_names_a_shut_door_only_where_there_is_one() -> None:
+    plan = small_flat()
+    assert "Door, found shut" not in texts(group(parse(plan), "legend"))
+    shut = replace(plan, doors=(replace(plan.doors[0], shut=True), *plan.doors[1:]))
+    assert "Door, found shut" in texts(group(parse(shut), "legend"))
 
 
 def test_title_block_states_area_basis_scale_and_share() -> None:
