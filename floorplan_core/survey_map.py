@@ -72,9 +72,7 @@ class SurveyMap:
         if T_world_sensor is None:
             self._integrate(pts, np.full(len(pts), -1, dtype=np.int32), np.zeros((0, 3)))
             return
-        pose = np.asarray(T_world_sensor, dtype=np.float64)
-        if pose.shape != (4, 4) or not np.isfinite(pose).all():
-            raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
+        pose = checked_pose(T_world_sensor)
         with np.errstate(invalid="ignore"):  # what is not a number is left out later
             world = pts @ pose[:3, :3].T + pose[:3, 3]
         self._path.append(pose[None, :3, 3])
@@ -90,12 +88,7 @@ class SurveyMap:
         if chunk.scan_id is None or trajectory is None:
             self._integrate(chunk.points, np.full(len(chunk.points), -1, dtype=np.int32), np.zeros((0, 3)))
         elif len(chunk.scan_id):
-            first, last = int(chunk.scan_id.min()), int(chunk.scan_id.max())
-            if first < 0 or last >= len(trajectory):
-                raise InputError(
-                    f"Points refer to the scans {first} to {last}, the trajectory has the rows 0 to "
-                    f"{len(trajectory) - 1}; give the trajectory of this survey."
-                )
+            first, last = checked_rows(chunk.scan_id, trajectory)
             self._follow(trajectory, first, last)
             origins = trajectory.origins[first : last + 1]
             self._integrate(chunk.points, chunk.scan_id - np.int32(first), origins)
@@ -204,6 +197,25 @@ class SurveyMap:
             np.ascontiguousarray(scan, dtype=np.int32),
             np.ascontiguousarray(origins, dtype=np.float64),
         )
+
+
+def checked_pose(T_world_sensor: Float) -> Float:
+    """The pose (4, 4); :class:`InputError` where it is none."""
+    pose = np.asarray(T_world_sensor, dtype=np.float64)
+    if pose.shape != (4, 4) or not np.isfinite(pose).all():
+        raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
+    return pose
+
+
+def checked_rows(scan_id: NDArray[np.int32], trajectory: Trajectory) -> tuple[int, int]:
+    """First and last row that points refer to; :class:`InputError` where the trajectory has no such row."""
+    first, last = int(scan_id.min()), int(scan_id.max())
+    if first < 0 or last >= len(trajectory):
+        raise InputError(
+            f"Points refer to the scans {first} to {last}, the trajectory has the rows 0 to "
+            f"{len(trajectory) - 1}; give the trajectory of this survey."
+        )
+    return first, last
 
 
 def _count(scans: list[Scan]) -> int:

@@ -26,9 +26,12 @@ from floorplan_core.cli.options import (
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config
+    from floorplan_core.drift.online import CorrectingPlanner
     from floorplan_core.model import FloorPlan, Reconstruction
     from floorplan_core.pipeline import FloorPlanner
     from floorplan_core.replay import Interval
+
+    OnlinePlanner = FloorPlanner | CorrectingPlanner
 
 TIMELINE, FILM_STRIP = "timeline.json", "filmstrip.png"
 SUFFIXES = (".geojson", ".svg", ".png")
@@ -61,28 +64,34 @@ def watch(
 ) -> None:
     """Replay or follow a run and write a numbered plan each interval, timeline.json and a film strip."""
     from floorplan_core.cli.planning import announce_compilation
-    from floorplan_core.errors import NoPlanError, UsageError
+    from floorplan_core.errors import NoPlanError
     from floorplan_core.files import output_folder
 
     console = Console(context, as_json=as_json, quiet=quiet)
     settings = resolve_config(config, set_)
     observer = console.observer(bars=False)  # a line for each interval instead
-    if settings.drift.correct:
-        raise UsageError("drift.correct needs the whole run: plan it with 'floorcast plan' afterwards.")
     with output_folder(out):  # made now, and removed again if nothing comes of it
         run, intervals = open_run(survey, trajectory, every, follow, settings, observer)
         announce_compilation(observer)
-        from floorplan_core.pipeline import FloorPlanner  # after opening: bad input is answered at once
-
         recorder = Recorder(out, observer, storey or 0)
-        planner = FloorPlanner(settings, observer, run.name, run.local_frame)
-        recorder.record(intervals, planner)
+        recorder.record(intervals, _planner(run, settings, observer))
         if not recorder.film.frames():
             raise NoPlanError(_never(recorder.timeline, run))
         recorder.film.write(out / FILM_STRIP)
     plans = sum(entry["plan"] is not None for entry in recorder.timeline)
     data = {"out": str(out), "plans": plans, "timeline": recorder.timeline, "warnings": observer.warnings}
     console.result(data, f"Wrote {plans} plans, {TIMELINE} and {FILM_STRIP} into {out}.")
+
+
+def _planner(run: Reconstruction, config: Config, observer: CommandObserver) -> OnlinePlanner:
+    """Imported after opening: bad input is answered at once."""
+    if config.drift.correct:
+        from floorplan_core.drift.online import CorrectingPlanner
+
+        return CorrectingPlanner(config, observer, run.name, run.local_frame)
+    from floorplan_core.pipeline import FloorPlanner
+
+    return FloorPlanner(config, observer, run.name, run.local_frame)
 
 
 def open_run(
@@ -124,12 +133,12 @@ class Recorder:
         self._out, self._observer, self._storey = out, observer, storey
         self._exporters = {s: default_registry().exporter(Path(f"plan{s}")) for s in SUFFIXES}
 
-    def record(self, intervals: Iterator[Interval], planner: FloorPlanner) -> None:
+    def record(self, intervals: Iterator[Interval], planner: OnlinePlanner) -> None:
         """Integrate and plan until the run is over."""
         for interval in intervals:
             self._observer.check_cancelled()
             seconds, plan, note = _advance(planner, interval, self._storey)
-            entry = timeline_entry(interval, plan, seconds, note)
+            entry = timeline_entry(interval, plan, seconds, note) | _correction(planner)
             self.timeline.append(entry)
             if plan is not None:
                 entry["plan"] = f"plan-{len(self.timeline):04d}"
@@ -159,7 +168,7 @@ class Recorder:
 
 
 def _advance(
-    planner: FloorPlanner, interval: Interval, storey: int
+    planner: OnlinePlanner, interval: Interval, storey: int
 ) -> tuple[tuple[float, float], FloorPlan | None, str]:
     """Integrate the interval and plan; returns the seconds of both, and the plan or why there is none yet."""
     from floorplan_core.errors import NoPlanError
@@ -177,6 +186,17 @@ def _advance(
     except NoPlanError as error:
         note = str(error)
     return (integrated - started, perf_counter() - integrated), plan, note
+
+
+def _correction(planner: OnlinePlanner) -> dict[str, Any]:
+    """What a robot needs to place itself in the plan, where the path is corrected."""
+    from floorplan_core.pipeline import FloorPlanner
+
+    return (
+        {}
+        if isinstance(planner, FloorPlanner)
+        else {"map_from_odom": planner.map_from_odom.round(9).tolist()}
+    )
 
 
 def timeline_entry(

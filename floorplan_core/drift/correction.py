@@ -58,7 +58,10 @@ def corrected(survey: Reconstruction, config: Config, observer: Observer) -> Rec
     observer.stage_started("drift")
     keyframes = cut_path(trajectory, config.drift.keyframe)
     rotation, points = _frame(survey, keyframes, config, observer)
-    patches = keyframe_patches(points, keyframes, rotation, config.frame)
+    patches = [
+        keyframe_patches(part, origin, rotation, config.frame)
+        for part, origin in zip(points, keyframes.origin, strict=True)
+    ]
     correction = find_correction(patches, keyframes, rotation, config.drift)
     moves = scan_moves(correction, keyframes, trajectory, rotation)
     observer.stage_finished("drift", time.perf_counter() - began)
@@ -108,7 +111,7 @@ def find_correction(
         problem = _problem(sightings, axis, start, step[:, axis], sigma)
         positions, plane = solve_axis(problem, tuple(r * config.reach for r in ROUNDS))
         moved = positions - origin[:, axis]
-        shift[:, axis] = moved - moved.mean()  # nothing fixes the whole: it stays where it was, on average
+        shift[:, axis] = moved - moved[0]  # nothing fixes the whole: it stays where it began
         planes += int(plane.max()) + 1 if len(plane) else 0
     return Correction(shift, turn, planes, len(sightings))
 

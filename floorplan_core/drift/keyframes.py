@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,28 +37,50 @@ def cut_path(trajectory: Trajectory, length: float) -> Keyframes:
     return Keyframes(of_scan, first, trajectory.origins[first], path[first])
 
 
+class KeptPoints:
+    """The points of a stretch of the path, evenly thinned to a bounded number."""
+
+    def __init__(self) -> None:
+        self._points: list[Float] = []
+        self._scan: list[NDArray[np.int32]] = []
+        self._count, self._every = 0, 1
+
+    def add(self, points: Float, scan_id: NDArray[np.int32]) -> None:
+        """Take more points (N, 3), local frame, and the rows (N,) of the trajectory that saw them."""
+        points, scan_id = points[:: self._every], scan_id[:: self._every]
+        self._points.append(points)
+        self._scan.append(scan_id)
+        self._count += len(points)
+        if self._count > 2 * MOST_POINTS:
+            points, scan_id = self.all()
+            self._points, self._scan = [points[::2]], [scan_id[::2]]
+            self._count, self._every = len(self._scan[0]), 2 * self._every
+
+    def all(self) -> tuple[Float, NDArray[np.int32]]:
+        """The points (N, 3) and the rows (N,) of the trajectory that saw them."""
+        if not self._points:
+            return np.zeros((0, 3)), np.zeros(0, dtype=np.int32)
+        return np.concatenate(self._points), np.concatenate(self._scan)
+
+
 def gather(survey: Reconstruction, keyframes: Keyframes, observer: Observer) -> list[Float]:
     """(N, 3) points of each keyframe, local frame, evenly thinned to a bounded number; one pass."""
-    kept: list[list[Float]] = [[] for _ in range(len(keyframes))]
-    count = np.zeros(len(keyframes), dtype=np.int64)
-    every = np.ones(len(keyframes), dtype=np.int64)
+    kept = [KeptPoints() for _ in range(len(keyframes))]
     for chunk in survey.chunks():
         observer.check_cancelled()
-        for k, points in _by_keyframe(chunk, keyframes):
-            part = points[:: every[k]]
-            kept[k].append(part)
-            count[k] += len(part)
-            if count[k] > 2 * MOST_POINTS:
-                thinned = np.concatenate(kept[k])[::2]
-                kept[k], count[k], every[k] = [thinned], len(thinned), 2 * every[k]
-    return [np.concatenate(parts) if parts else np.zeros((0, 3)) for parts in kept]
+        for k, points, scan_id in by_keyframe(chunk, keyframes):
+            kept[k].add(points, scan_id)
+    return [part.all()[0] for part in kept]
 
 
-def _by_keyframe(chunk: PointChunk, keyframes: Keyframes) -> list[tuple[int, Float]]:
+def by_keyframe(chunk: PointChunk, keyframes: Keyframes) -> Iterator[tuple[int, Float, NDArray[np.int32]]]:
+    """(keyframe, its points (N, 3), the rows (N,) that saw them); none where the chunk knows no rows."""
     if chunk.scan_id is None or not len(chunk.points):
-        return []
+        return
     of_point = keyframes.of_scan[chunk.scan_id]
     order = np.argsort(of_point, kind="stable")
     numbers, starts = np.unique(of_point[order], return_index=True)
-    groups = np.split(order, starts[1:])
-    return [(int(k), np.asarray(chunk.points[g], np.float64)) for k, g in zip(numbers, groups, strict=True)]
+    for k, rows in zip(numbers, np.split(order, starts[1:]), strict=True):
+        points = np.asarray(chunk.points[rows], np.float64)
+        good = np.isfinite(points).all(axis=1)
+        yield int(k), points[good], chunk.scan_id[rows][good]

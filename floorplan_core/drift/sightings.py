@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import FrameConfig
-from floorplan_core.drift.keyframes import Keyframes
 from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
 
 Float = NDArray[np.float64]
@@ -43,16 +42,11 @@ class Sightings:
         return len(self.keyframe)
 
 
-def keyframe_patches(
-    points: Sequence[Float], keyframes: Keyframes, rotation: Float, config: FrameConfig
-) -> list[CellNormals]:
-    """Flat patches of each keyframe, in the Manhattan frame, from the keyframe's origin."""
-    found = []
-    for origin, part in zip(keyframes.origin, points, strict=True):
-        local = (part - origin) @ rotation.T
-        _, first = np.unique(np.floor(local / SURFEL).astype(np.int64), axis=0, return_index=True)
-        found.append(fit_cell_normals(np.ascontiguousarray(local[first]), config.cell, config.planarity))
-    return found
+def keyframe_patches(points: Float, origin: Float, rotation: Float, config: FrameConfig) -> CellNormals:
+    """Flat patches in the points (N, 3) of a keyframe, in the Manhattan frame, from its ``origin`` (3,)."""
+    local = (points - origin) @ rotation.T
+    _, first = np.unique(np.floor(local / SURFEL).astype(np.int64), axis=0, return_index=True)
+    return fit_cell_normals(np.ascontiguousarray(local[first]), config.cell, config.planarity)
 
 
 def headings(patches: Sequence[CellNormals], step_sigma: Float) -> Float:

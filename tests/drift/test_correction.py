@@ -75,9 +75,17 @@ def test_what_has_no_path_is_one_sentence(tmp_path: Path, capfd: pytest.CaptureF
     cloud = Reconstruction("cloud.ply", lambda: iter([PointChunk(points)]))
     with pytest.raises(NoPlanError, match=r"cloud\.ply has no trajectory"):
         corrected(cloud, CONFIG, Observer())
-    out = str(tmp_path / "out")
-    assert main.run(["watch", str(SAMPLE), "--out", out, "--set", "drift.correct=true"]) == 2
-    assert "needs the whole run" in capfd.readouterr().err
+    np.savetxt(tmp_path / "cloud.xyz", points)
+    arguments = [
+        "plan",
+        str(tmp_path / "cloud.xyz"),
+        "--out",
+        str(tmp_path / "out"),
+        "--set",
+        "drift.correct=true",
+    ]
+    assert main.run(arguments) == 4
+    assert "has no trajectory" in capfd.readouterr().err
 
 
 def test_keyframes_hold_a_bounded_number_of_points() -> None:
