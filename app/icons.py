@@ -19,7 +19,7 @@ _targets: weakref.WeakKeyDictionary[Any, tuple[str, str]] = weakref.WeakKeyDicti
 
 def exists(name: str) -> bool:
     """True where resources/icons has the icon."""
-    return bool(name) and theme.resource("icons", f"{name}.svg").is_file()
+    return bool(name) and bool(_svg(name))
 
 
 def icon(name: str, colour: str = "") -> QIcon:
@@ -49,13 +49,19 @@ def _icon(name: str, colour: str, faint: str) -> QIcon:
     return made
 
 
+@lru_cache(maxsize=512)
+def _svg(name: str) -> str:
+    """The text of the icon; "" where there is none."""
+    path = theme.resource("icons", f"{name}.svg")
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
 @lru_cache(maxsize=1024)
 def _drawn(name: str, size: int, colour: str) -> QPixmap:
     picture = QPixmap(size, size)
     picture.fill(Qt.GlobalColor.transparent)
     if exists(name):
-        svg = theme.resource("icons", f"{name}.svg").read_text(encoding="utf-8")
-        svg = svg.replace("currentColor", colour).replace('stroke-width="2"', 'stroke-width="1.75"')
+        svg = _svg(name).replace("currentColor", colour).replace('stroke-width="2"', 'stroke-width="1.75"')
         painter = QPainter(picture)
         QSvgRenderer(QByteArray(svg.encode())).render(painter, QRectF(0, 0, size, size))
         painter.end()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QPoint, QSettings, QSize, Qt, QTimer
+from PySide6.QtCore import QByteArray, QChildEvent, QPoint, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -18,10 +18,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
-from floorcast_app import theme
 from floorcast_app.actions import MENUS
 from floorcast_app.dialogs.thumbnails import plan_png
 from floorcast_app.dock_layout import TitleBars, arrange, tab_bars
+from floorcast_app.dressing import Dresser
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.recovery_banner import RecoveryBanner
@@ -64,6 +64,7 @@ class MainWindow(QMainWindow):
         self._fitted = True  # False: the next plan is brought into view
         self.recent = RecentFiles(settings)
         self.actions_by_id = QtActions(workbench, self)
+        self.dresser = Dresser(self, self.actions_by_id.retinting)
         self.setObjectName("floorcast")
         self.setDockNestingEnabled(True)
         self.setAcceptDrops(True)
@@ -114,6 +115,7 @@ class MainWindow(QMainWindow):
         """
         if pane == "window":
             return self._window_picture(width, height)
+        self.dresser.finish()
         widget = self.pane(pane)
         if isinstance(widget, PlanCanvas):
             return widget.picture(width, height, scale_bar)
@@ -188,6 +190,11 @@ class MainWindow(QMainWindow):
         for url in event.mimeData().urls()[:1]:
             self.workbench.try_run("file.open", path=url.toLocalFile())
 
+    def childEvent(self, event: QChildEvent) -> None:
+        super().childEvent(event)
+        if event.polished():
+            self.dresser.welcome(event.child())
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         self.empty.cover(self)
@@ -209,10 +216,7 @@ class MainWindow(QMainWindow):
 
     def _look_changed(self, before: Look, after: Look) -> None:
         if before.theme != after.theme:
-            app = QApplication.instance()
-            assert isinstance(app, QApplication)
-            theme.apply_theme(app, after.theme)
-            self.actions_by_id.retint()
+            self.dresser.change(after.theme)
         if before.workspace != after.workspace:
             self._settings.setValue(f"workspace/{before.workspace}", self.saveState())
             self._arrange(after.workspace)
@@ -301,6 +305,7 @@ class MainWindow(QMainWindow):
 
     def _settle(self) -> None:
         """Let the panes show what holds now."""
+        self.dresser.finish()
         end = time.monotonic() + LAST_WAIT
         while time.monotonic() < end:
             QApplication.processEvents()

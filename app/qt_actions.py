@@ -53,11 +53,10 @@ class QtActions(QObject):
                 plain, _ = tr_action(self._workbench.actions[id])
                 self._by_id[id].setText(f"{plain}: {tr_text(text)}" if text else plain)
 
-    def retint(self) -> None:
-        """Icons in the colours of the present theme."""
-        for id, qt in self._by_id.items():
-            if name := self._workbench.actions[id].icon:
-                qt.setIcon(icon(name))
+    def retinting(self) -> list[Callable[[], None]]:
+        """Icons in the colours of the present theme, one at each call: they are drawn anew."""
+        named = [(qt, self._workbench.actions[id].icon) for id, qt in self._by_id.items()]
+        return [lambda qt=qt, name=name: qt.setIcon(icon(name)) for qt, name in named if name]  # type: ignore[misc]
 
     def _make(self, action: Action) -> QAction:
         text, tip = tr_action(action)

@@ -52,14 +52,19 @@ def stylesheet(theme: str) -> str:
 
 def apply_theme(app: QApplication, theme: str) -> None:
     """Give the application the look ``theme`` and tell the listeners of :data:`changed`."""
-    global _name
-    _name = theme if theme in THEMES else "light"
     if not app.styleSheet():  # once: each of these makes every widget look anew
         app.setStyle("Fusion")
         app.setFont(font())
-    app.setPalette(_palette(colours()))
+    begin(app, theme)
     app.setStyleSheet(stylesheet(_name))
     changed.emit(_name)
+
+
+def begin(app: QApplication, theme: str) -> None:
+    """The colours and the palette only: whoever calls brings the style sheet to the widgets and tells."""
+    global _name
+    _name = theme if theme in THEMES else "light"
+    app.setPalette(_palette(colours()))
 
 
 def font(pixels: int = FONT_PIXELS, weight: int = 400) -> QFont:

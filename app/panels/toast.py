@@ -18,6 +18,8 @@ WIDEST = 640  # px: a longer line is hard to read
 class Toast(QFrame):
     """Lies over the lower edge of its parent."""
 
+    wears_its_own = True  # its style sheet is not the theme's
+
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.kind = "info"
