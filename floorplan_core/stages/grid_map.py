@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config, FrameConfig, MapsConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.borders import find_borders, simplified, smallest_box
-from floorplan_core.geometry.masks import label_patches, patch_boxes
+from floorplan_core.geometry.masks import measure_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, GridMap, ManhattanFrame, OccupancyGrid
 from floorplan_core.stages import manhattan_frame as frames
 
@@ -147,10 +147,10 @@ def _paint_walls(out: NDArray[np.uint8], walls: Bool, turn: Float, low: Float) -
 
 def find_furniture(states: NDArray[np.uint8], cell: float, config: MapsConfig) -> Bool:
     """(ny, nx) isolated objects that are too small or too compact to be walls."""
-    labels, count = label_patches(states != FREE, connectivity=8)
+    labels, patches = measure_patches(states != FREE, connectivity=8)
     out = np.zeros(states.shape, dtype=bool)
     ny, nx = states.shape
-    for k, (x, y, w, h) in enumerate(patch_boxes(labels, count).tolist(), start=1):
+    for k, (x, y, w, h) in enumerate(patches[:, :4].tolist(), start=1):
         if max(w, h) * cell > config.furniture_size * 1.2 or x == 0 or y == 0 or x + w == nx or y + h == ny:
             continue
         mine = labels[y : y + h, x : x + w] == k

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import MapsConfig
 from floorplan_core.geometry.borders import find_borders, simplified
-from floorplan_core.geometry.masks import distance_to_gap, label_patches, line_cells
+from floorplan_core.geometry.masks import distance_to_gap, measure_patches
 from floorplan_core.stages.grid_map_chords import hall_ahead, in_sight, march, opening, wall_ahead
 
 Float = NDArray[np.float64]
@@ -92,18 +92,19 @@ def find_passages(floor: Bool, cell: float, config: MapsConfig) -> tuple[tuple[P
 
 def label_spaces(cut: Bool, cell: float, config: MapsConfig) -> Labels:
     """(ny, nx) 4-connected spaces, numbered from 1 in row order; those below ``min_space`` are 0."""
-    labels, count = label_patches(cut)
-    large = np.bincount(labels.ravel(), minlength=count + 1) * cell**2 >= config.min_space
-    large[0] = False
-    number = np.zeros(count + 1, dtype=np.int32)
+    labels, patches = measure_patches(cut)
+    large = np.concatenate([[False], patches[:, 4] * cell**2 >= config.min_space])
+    number = np.zeros(len(large), dtype=np.int32)
     number[large] = np.arange(1, np.count_nonzero(large) + 1)
     return np.asarray(number[labels], dtype=np.int32)
 
 
 def _draw(cut: Bool, ends: Float) -> None:
     """Take out the cells of a chord; a 4-connected line stops rays of any direction, too."""
+    import cv2
+
     x0, y0, x1, y1 = (round(float(v)) for v in ends)
-    cut[line_cells(x0, y0, x1, y1)] = False
+    cv2.line(cut.view(np.uint8), (x0, y0), (x1, y1), 0, 1, cv2.LINE_4)
 
 
 def _candidates(floor: Bool, cell: float, config: MapsConfig) -> _Chords:

@@ -1,4 +1,4 @@
-"""Patches, distances, widening and lines against plain references."""
+"""Patches, distances and widening against plain references."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from scipy import ndimage
 from floorplan_core.geometry.masks import (
     distance_to_gap,
     label_patches,
-    line_cells,
+    measure_patches,
     opened,
-    patch_boxes,
     widened,
 )
 
@@ -30,14 +29,17 @@ def test_patches_are_numbered_in_row_order(mask, connectivity):
     assert np.array_equal(labels, wanted)
 
 
+@pytest.mark.parametrize("connectivity", [4, 8])
 @pytest.mark.parametrize("mask", MASKS)
-def test_boxes_hold_their_patches(mask):
-    labels, count = label_patches(mask)
+def test_boxes_hold_their_patches(mask, connectivity):
+    labels, patches = measure_patches(mask, connectivity)
+    assert np.array_equal(labels, label_patches(mask, connectivity)[0])
     boxes = [
         [s[1].start, s[0].start, s[1].stop - s[1].start, s[0].stop - s[0].start]
         for s in ndimage.find_objects(labels)
     ]
-    assert patch_boxes(labels, count).tolist() == boxes
+    assert patches[:, :4].tolist() == boxes
+    assert patches[:, 4].tolist() == np.bincount(labels.ravel())[1:].tolist()
 
 
 @pytest.mark.parametrize("mask", MASKS)
@@ -58,11 +60,25 @@ def test_a_mask_without_gap_is_far_from_any():
     assert (distance_to_gap(np.ones((4, 6), dtype=bool)) == 10).all()
 
 
-@pytest.mark.parametrize("ends", [(0, 0, 9, 3), (9, 3, 0, 0), (2, 8, 2, 1), (5, 5, 5, 5), (1, 7, 6, 2)])
-def test_lines_stop_every_ray(ends):
-    y, x = line_cells(*ends)
-    assert (x[0], y[0], x[-1], y[-1]) == ends
-    assert (np.abs(np.diff(x)) + np.abs(np.diff(y)) == 1).all()
-    a, b = np.array(ends[:2]), np.array(ends[2:])
-    across = np.array([b[1] - a[1], a[0] - b[0]]) / max(np.hypot(*(b - a)), 1)
-    assert np.abs((np.column_stack([x, y]) - a) @ across).max() <= 1
+def test_a_grid_without_cells_has_nothing():
+    empty = np.zeros((0, 4), dtype=bool)
+    assert label_patches(empty)[1] == len(measure_patches(empty)[1]) == 0
+    for function in (widened, opened, distance_to_gap):
+        assert function(empty).shape == (0, 4)
+
+
+def test_neither_threads_nor_memory_layout_change_a_result():
+    import cv2
+
+    mask = ndimage.gaussian_filter(RNG.normal(size=(400, 300)), 2) > 0
+    threads = cv2.getNumThreads()
+    try:
+        for count in (1, 2, 4):
+            cv2.setNumThreads(count)
+            for connectivity in (4, 8):
+                wanted = ndimage.label(mask, np.ones((3, 3)) if connectivity == 8 else None)[0]
+                assert np.array_equal(label_patches(mask, connectivity)[0], wanted)
+                assert np.array_equal(label_patches(mask[::2].T, connectivity)[0] > 0, mask[::2].T)
+            assert np.array_equal(distance_to_gap(mask.T).T, distance_to_gap(mask))
+    finally:
+        cv2.setNumThreads(threads)

@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
+from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Facing, GridMap, OccupancyGrid
 from floorplan_core.stages.grid_map import find_floor, find_furniture
 from floorplan_core.stages.grid_map_chords import march, opening
 from floorplan_core.stages.grid_map_outlines import askew_share, outline
-from floorplan_core.stages.grid_map_passages import DOOR, MOUTH, PASSAGE, find_passages
+from floorplan_core.stages.grid_map_passages import DOOR, MOUTH, PASSAGE, _draw, find_passages
 from floorplan_core.stages.grid_map_walls import find_boundary, wall_planes, wall_segments
 from tests.grid_map.map_drawings import CELL, DOORS, ROOMS, fill, office, turned
 
@@ -65,6 +66,19 @@ def test_furniture_is_small_or_compact_and_isolated() -> None:
 
 
 # passages
+
+
+@pytest.mark.parametrize("ends", [(0, 0, 9, 3), (9, 3, 0, 0), (2, 8, 2, 1), (5, 5, 5, 5), (1, 7, 6, 2)])
+def test_drawn_chords_stop_every_ray(ends: tuple[int, int, int, int]) -> None:
+    cut = np.ones((12, 12), dtype=bool)
+    _draw(cut, np.array(ends, dtype=np.float64))
+    y, x = np.nonzero(~cut)
+    assert not cut[ends[1], ends[0]] and not cut[ends[3], ends[2]]
+    assert len(x) == 1 + abs(ends[2] - ends[0]) + abs(ends[3] - ends[1])  # each shares an edge with the next
+    assert label_patches(~cut)[1] == 1
+    a, b = np.array(ends[:2]), np.array(ends[2:])
+    across = np.array([b[1] - a[1], a[0] - b[0]]) / max(np.hypot(*(b - a)), 1)
+    assert np.abs((np.column_stack([x, y]) - a) @ across).max() <= 1
 
 
 def test_office_parts_into_its_rooms() -> None:
