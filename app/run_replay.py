@@ -3,12 +3,41 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.model import FloorPlan, Reconstruction
 from floorplan_core.observer import Observer
+
+if TYPE_CHECKING:
+    from floorplan_core.pipeline import FloorPlanner
+
+SAME_FLOOR = 1.0  # metres: storeys are further apart than this, and a floor half seen is known better
+
+
+@dataclass(frozen=True)
+class ShownStorey:
+    """Which storey of a survey is replayed; numbers change while a run reaches more of them."""
+
+    number: int  # in the whole survey
+    floor: float  # metres, z of the local frame
+    alone: bool  # True where the survey has no other
+
+    @staticmethod
+    def of(whole: FloorPlan, run: Reconstruction, alone: bool) -> ShownStorey:
+        """The storey of a plan of the whole ``run``."""
+        up = float(whole.local_frame.shift[2] - run.local_frame.shift[2])
+        return ShownStorey(whole.storey, whole.frame.floor_z + up, alone)
+
+    def among(self, planner: FloorPlanner) -> int | None:
+        """Its number in what was seen so far; None where it was not reached yet."""
+        storeys = planner.storeys()  # first: it settles the map, whose centre moves
+        up = float(planner.map.own.centre[2])
+        apart = [abs(s.floor_z + up - self.floor) for s in storeys]
+        nearest = apart.index(min(apart))  # of two as near the lower one
+        return nearest if self.alone or apart[nearest] < SAME_FLOOR else None
 
 
 @dataclass(frozen=True)
@@ -22,8 +51,10 @@ class Snapshot:
     predicted: float = 0.0  # m2 of the regions that were not
 
 
-def snapshots(run: Reconstruction, config: Config, every: float, observer: Observer) -> Iterator[Snapshot]:
-    """Integrate and plan interval by interval; raises :class:`InputError` where nobody knows when."""
+def snapshots(
+    run: Reconstruction, config: Config, every: float, observer: Observer, shown: ShownStorey
+) -> Iterator[Snapshot]:
+    """Integrate and plan one storey interval by interval; :class:`InputError` where nobody knows when."""
     from floorplan_core.pipeline import FloorPlanner
     from floorplan_core.replay import intervals
 
@@ -36,15 +67,17 @@ def snapshots(run: Reconstruction, config: Config, every: float, observer: Obser
             observer.check_cancelled()
             planner.integrate_chunk(chunk, run.trajectory)
         try:
-            plan = planner.plan()
+            number = shown.among(planner)
+            plan = None if number is None else replace(planner.plan(storey=number), storey=shown.number)
         except NoPlanError:
-            yield Snapshot(interval.end, interval.path_length, None)
-        else:
-            yield _snapshot(interval.end, interval.path_length, plan)
+            plan = None
+        yield _snapshot(interval.end, interval.path_length, plan)
         observer.progress("replay", int(interval.end))
 
 
-def _snapshot(time: float, path_length: float, plan: FloorPlan) -> Snapshot:
+def _snapshot(time: float, path_length: float, plan: FloorPlan | None) -> Snapshot:
+    if plan is None:
+        return Snapshot(time, path_length, None)
     area = sum(r.area for r in plan.regions)
     predicted = sum(r.area * r.speculated_fraction for r in plan.regions)
     return Snapshot(time, path_length, plan, area - predicted, predicted)

@@ -19,7 +19,7 @@ from floorcast_app.interface import Interface, NoInterface
 from floorcast_app.item_bounds import bring_into_view
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
-from floorcast_app.run_replay import Snapshot, snapshots
+from floorcast_app.run_replay import ShownStorey, Snapshot, snapshots
 from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
 from floorcast_app.state import Check, DocumentState, StoreyEdits, SurveyRef
@@ -67,7 +67,8 @@ class Workbench:
         self.pointer_moved = Event()  # (x, y) metres, manhattan frame; (None, None) outside the panes
         self.recent_changed = Event()  # (Path) it was opened or saved
         self.log: list[dict[str, Any]] = []  # the actions that were run, for a script that does it again
-        self.timeline: list[Snapshot] = []  # of a replayed run
+        self.timeline: list[Snapshot] = []  # of a replayed run, of the storey that is shown
+        self._replayed: dict[int, list[Snapshot]] = {}  # the same of each storey
         self.timeline_changed = Event()  # ()
         self.setting_asked = Event()  # (name) show "stage.field" in the settings form
         self.toolbox = ToolBox(self)  # the tool in hand, one for all plan panes
@@ -163,15 +164,21 @@ class Workbench:
 
     def replay(self, every: float) -> None:
         """Start the job that plans the run again as the sensor moved, every ``every`` seconds of it."""
-        session, state = self.session, self.state
-        if session is None:
+        session, state, whole = self.session, self.state, self._whole
+        if session is None or whole is None:
             return
-        self.timeline = []
-        self.timeline_changed.emit()
+        shown = ShownStorey.of(whole, session.reconstruction, len(self.storeys) < 2)
+        moments = self._replayed[state.storey] = []
+        self._show_timeline()
+
+        def add(snapshot: Snapshot) -> None:
+            moments.append(snapshot)
+            if moments is self.timeline:
+                self.timeline_changed.emit()
 
         def work(observer: Observer) -> None:
-            for snapshot in snapshots(session.reconstruction, state.config, every, observer):
-                self.post(lambda s=snapshot: self._add_snapshot(session, s))
+            for snapshot in snapshots(session.reconstruction, state.config, every, observer, shown):
+                self.post(lambda s=snapshot: add(s))
 
         self.jobs.start("Replaying the run", work, lambda _: None)
 
@@ -333,6 +340,8 @@ class Workbench:
             before.corrections,
             before.storey,
         ):
+            if after.storey != before.storey:
+                self._show_timeline()
             self.replan()
         self.selection.keep_only(self.exists)
 
@@ -359,16 +368,16 @@ class Workbench:
         if text not in self.warnings:
             self.warnings = (*self.warnings, text)
 
-    def _add_snapshot(self, session: PlanningSession, snapshot: Snapshot) -> None:
-        if session is self.session:
-            self.timeline.append(snapshot)
-            self.timeline_changed.emit()
+    def _show_timeline(self) -> None:
+        """The moments of the storey that is shown; none where it was not replayed."""
+        self.timeline = self._replayed.get(self.state.storey, [])
+        self.timeline_changed.emit()
 
     def _close_survey(self) -> None:
         self.jobs.cancel()
         self.session, self.plan, self.storeys, self.warnings = None, None, (), ()
-        self._whole, self.timeline = None, []
-        self.timeline_changed.emit()
+        self._whole, self._replayed = None, {}
+        self._show_timeline()
         self.points = PointStore()
         self.selection.select(None)
         self.points_changed.emit()

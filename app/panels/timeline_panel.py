@@ -22,6 +22,7 @@ class TimelinePanel(Panel):
     def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
         super().__init__(workbench, parent)
         self.at = -1
+        self._of: list[Snapshot] = []  # the moments that ``at`` counts
         self.play = QToolButton()
         self.play.setIconSize(QSize(20, 20))
         self.play.setCheckable(True)
@@ -53,9 +54,10 @@ class TimelinePanel(Panel):
         moments = self.workbench.timeline
         self._run.setVisible(bool(moments))
         self._empty.setVisible(not moments)
-        if not moments:
-            self.at = -1
+        if moments is not self._of:  # another replay, or that of another storey
+            self._of, self.at = moments, -1
             self.play.setChecked(False)
+        if not moments:
             self._refresh_empty()
             return
         self.slider.blockSignals(True)

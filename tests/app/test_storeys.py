@@ -109,3 +109,45 @@ def test_the_chooser_is_there_where_it_is_needed(qtbot, bench, sample_workbench)
     alone = StoreyChooser(sample_workbench)
     qtbot.addWidget(alone)
     assert not alone.wanted
+
+
+def test_the_storey_that_is_shown_is_replayed(bench, qtbot):
+    from floorcast_app.panels.timeline_panel import TimelinePanel
+
+    panel = TimelinePanel(bench)
+    qtbot.addWidget(panel)
+    every = bench.session.reconstruction.trajectory.stamps[-1] / 4
+    bench.run("plan.storey", number=1)
+    settle(bench)
+    whole = bench.plan
+    bench.run("plan.replay", every=every)
+    settle(bench)
+    upper = bench.timeline
+    assert upper[0].plan is None, "the run begins on the storey below"
+    assert upper[-1].plan is not None and upper[-1].plan.storey == 1
+    assert upper[-1].plan.regions[0].area == pytest.approx(18, abs=0.5)
+    panel.refresh()
+    panel.show_moment(len(upper) - 1)
+    assert bench.plan is upper[-1].plan
+    bench.run("plan.storey", number=0)
+    assert bench.timeline == [], "that storey was not replayed"
+    panel.refresh()
+    assert panel.at == -1
+    settle(bench)
+    bench.run("plan.replay", every=every)
+    settle(bench)
+    lower = bench.timeline
+    assert lower[0].plan.regions[0].area == pytest.approx(20, abs=0.5)
+    assert {s.plan.storey for s in lower} == {0}
+    bench.run("plan.storey", number=1)
+    settle(bench)
+    assert bench.timeline is upper and bench.plan.regions[0].area == whole.regions[0].area
+    bench.close_survey()
+    assert bench.timeline == []
+
+
+def test_a_replay_stops_where_another_storey_is_asked_for(bench):
+    bench.run("plan.replay", every=bench.session.reconstruction.trajectory.stamps[-1] / 4)
+    bench.run("plan.storey", number=1)
+    settle(bench)
+    assert (bench.plan.storey, bench.timeline) == (1, [])
