@@ -1,8 +1,9 @@
 """``python -m benchmarks.bench_io [--points N] [FORMAT ...]`` (``make bench-io``): reading and plain reading.
 
 A survey of N points (default 20 million) is made by laying a simulated one on itself with 5 mm of noise and
-written as LAS, LAZ, E57 and PLY. Each is read by the format's own library alone (all coordinates, by chunks),
-then opened and planned by Floorcast, each in a process of its own: CPU seconds, MB a second, most memory.
+written as LAS, LAZ, E57, PLY, PCD (binary, and compressed: ``pcdz``) and text. Each is read by the format's
+own library alone (all coordinates; Open3D for the last four), then opened and planned by Floorcast, each in a
+process of its own: CPU seconds, MB a second, most memory.
 A tenth of the points shows what grows with the file: time does, memory must not. The last columns project the
 CPU of 100 million and of a thousand million points.
 """
@@ -24,7 +25,7 @@ import numpy as np
 SMALL = Path(__file__).resolve().parents[1] / "resources" / "sample_survey"  # warms the kernels up
 BLOCK = 1 << 20  # points that are written and read at a time
 NOISE = 0.005  # m between two visits of one place
-FORMATS = ("las", "laz", "e57", "ply")
+FORMATS = ("las", "laz", "e57", "ply", "pcd", "pcdz", "xyz")  # pcdz: compressed PCD
 PROJECTED = (10**8, 10**9)
 
 
@@ -45,7 +46,16 @@ def blocks(count: int) -> Iterator[np.ndarray]:
 
 def write(path: Path, count: int) -> None:
     """Stream ``count`` points into ``path``."""
-    {"las": _write_las, "laz": _write_las, "e57": _write_e57, "ply": _write_ply}[path.suffix[1:]](path, count)
+    writers = {
+        "las": _write_las,
+        "laz": _write_las,
+        "e57": _write_e57,
+        "ply": _write_ply,
+        "pcd": _write_pcd,
+        "pcdz": _write_pcdz,
+        "xyz": _write_xyz,
+    }
+    writers[path.suffix[1:]](path, count)
 
 
 def _write_las(path: Path, count: int) -> None:
@@ -73,15 +83,42 @@ def _write_e57(path: Path, count: int) -> None:
 def _write_ply(path: Path, count: int) -> None:
     head = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
     head += [f"property float {axis}" for axis in "xyz"] + ["end_header", ""]
+    _write_floats(path, head, count)
+
+
+def _write_pcd(path: Path, count: int) -> None:
+    head = ["VERSION .7", "FIELDS x y z", "SIZE 4 4 4", "TYPE F F F", "COUNT 1 1 1", f"WIDTH {count}"]
+    head += ["HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", f"POINTS {count}", "DATA binary", ""]
+    _write_floats(path, head, count)
+
+
+def _write_floats(path: Path, head: list[str], count: int) -> None:
     with path.open("wb") as file:
         file.write("\n".join(head).encode())
         for block in blocks(count):
             file.write(block.astype("<f4").tobytes())
 
 
+def _write_pcdz(path: Path, count: int) -> None:
+    import open3d as o3d
+
+    points = np.concatenate(list(blocks(count)))
+    cloud = o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))
+    other = path.with_suffix(".pcd")
+    o3d.io.write_point_cloud(str(other), cloud, compressed=True)
+    other.rename(path)
+
+
+def _write_xyz(path: Path, count: int) -> None:
+    with path.open("w") as file:
+        for block in blocks(count):
+            file.write("".join(f"{x:.4f} {y:.4f} {z:.4f}\n" for x, y, z in block.tolist()))
+
+
 def plain(path: Path) -> int:
     """All coordinates with the format's own library; returns how many points there were."""
-    return {"las": _plain_las, "laz": _plain_las, "e57": _plain_e57, "ply": _plain_ply}[path.suffix[1:]](path)
+    readers = {"las": _plain_las, "laz": _plain_las, "e57": _plain_e57}
+    return readers.get(path.suffix[1:], _plain_by_open3d)(path)
 
 
 def _plain_las(path: Path) -> int:
@@ -105,10 +142,10 @@ def _plain_e57(path: Path) -> int:
     return total
 
 
-def _plain_ply(path: Path) -> int:
+def _plain_by_open3d(path: Path) -> int:
     import open3d as o3d
 
-    return len(np.asarray(o3d.io.read_point_cloud(str(path)).points))
+    return len(np.asarray(o3d.io.read_point_cloud(str(path), format=path.suffix[1:4]).points))
 
 
 def planned(path: Path) -> int:

@@ -1,5 +1,7 @@
 """``python -m benchmarks.big [--points N] [--keep FOLDER] [laz e57 ply]``: a cloud of 100 million points.
 
+``--points 2e7`` is the short form; ``--dense`` only counts the voxels that ever more points fill.
+
 A large office is simulated and every point is a ray cast of its own: tripod stations in each room and along
 the corridors turn as often as it takes, each turn from another start angle and with its own errors. The
 points are written station by station, so that making them needs the memory of one turn. As E57 each station
@@ -31,16 +33,19 @@ from typing import Any
 import numpy as np
 
 from benchmarks.bench_io import SMALL, plain
+from benchmarks.record import Outcome
+from benchmarks.record import report as keep
 
 FORMATS = ("laz", "e57", "ply")
 RAYS = 900_000  # of one turn of the scanner: memory while the cloud is made
+ROOMS, FEW_ROOMS = 80, 6  # of the office; of what stands for it at higher densities
 ASPECT, RETURNS = 2.4, 0.98  # columns by rows of a turn; share of its rays that come back
 SEED, YAW = 5, 17.0
 PROJECTED = 10**9
 Turn = tuple[np.ndarray, np.ndarray, int]  # (N, 3) points in the station's frame, its pose, its number
 
 
-def turns(count: int, folder: Path) -> Iterator[Turn]:
+def turns(count: int, folder: Path, rooms: int = ROOMS) -> Iterator[Turn]:
     """``count`` ray casts, turn by turn; the truth and the stations go to ``folder``."""
     from floorplan_core.simulation import BuildingSpec, SurveySpec, sensor_preset
     from floorplan_core.simulation.architect import make_building
@@ -50,7 +55,7 @@ def turns(count: int, folder: Path) -> Iterator[Turn]:
     from floorplan_core.simulation.truth import ground_truth
     from floorplan_core.simulation.walk import explore, floor_grid
 
-    spec = SurveySpec(BuildingSpec(style="grid", rooms=80), sensor_preset("station"), seed=SEED)
+    spec = SurveySpec(BuildingSpec(style="grid", rooms=rooms), sensor_preset("station"), seed=SEED)
     rng = np.random.default_rng(SEED)
     building = make_building(spec.building, rng)
     walk = explore(building, floor_grid(building), 1.0, rng)
@@ -257,6 +262,55 @@ def worth(path: Path) -> str:
     return evaluate(path.with_name(path.name + ".plan"), path.parent / "truth.json").summary()
 
 
+def figures(found: dict[str, Any], count: int) -> dict[str, float]:
+    """What is kept of one format, by name."""
+    kind, out = found["format"], {}
+    for points in (count // 10, count):
+        at = found[str(points)]
+        for how in ("plain", "plan"):
+            name = f"{kind} {points / 1e6:g} M, {how}"
+            out[f"{name}: s CPU"], out[f"{name}: most MB"] = at[how]["cpu"], at[how]["peak_mb"]
+    return out
+
+
+def saturation(densities: Sequence[int]) -> Outcome:
+    """How many voxels the points fill, at the density of so many points in the whole office.
+
+    A few rooms are scanned as densely: a thousand million points of the office are some fifty million here.
+    """
+    from floorplan_core.geometry.ray_carving import MissMap
+    from floorplan_core.geometry.surfel_map import SurfelMap
+
+    surfels, rays, done, rows = SurfelMap(0.05), MissMap(0.1), 0, []
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        next(turns(len(densities), folder))  # the truth of the office
+        office = _area(folder / "truth.json")
+        stream = turns(10**9, folder, FEW_ROOMS)
+        first = next(stream)
+        share = _area(folder / "truth.json") / office
+        for points, pose, _ in chain([first], stream):
+            world = points @ pose[:3, :3].T + pose[:3, 3]
+            near = np.zeros(len(world), dtype=np.int32), pose[None, :3, 3].copy(), (0.05, 30.0)
+            surfels.insert(world, *near)
+            rays.carve(world, *near)
+            done += len(points)
+            while len(rows) < len(densities) and done >= densities[len(rows)] * share:
+                rows.append((densities[len(rows)] / 1e6, done / 1e6, len(surfels), rays.blocks))
+            if len(rows) == len(densities):
+                break
+    header = ("M points of the office", "M points here", "surfels", "blocks of rays")
+    found = {f"surfels a m2 at {row[0]:g} M": row[2] / (office * share) for row in rows}
+    return Outcome("voxels that hold points, by density", header, rows, found)
+
+
+def _area(truth: Path) -> float:
+    """m2 of the rooms."""
+    from shapely.geometry import Polygon
+
+    return sum(Polygon(room["polygon"]).area for room in json.loads(truth.read_text())["rooms"])
+
+
 def report(found: dict[str, Any], count: int) -> Iterator[str]:
     """The lines of one format."""
     small, large = found[str(count // 10)], found[str(count)]
@@ -292,19 +346,25 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.big")
     parser.add_argument("--points", type=float, default=1e8)
     parser.add_argument("--keep", type=Path, help="folder that keeps the clouds for the next time")
+    parser.add_argument("--dense", action="store_true", help="only: voxels filled at growing densities")
     parser.add_argument("formats", nargs="*", choices=[*FORMATS, []])
     given = parser.parse_args(arguments)
     count = int(given.points)
     print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores", flush=True)
-    kinds = given.formats or FORMATS[:2]
+    if given.dense:
+        keep("big_dense", saturation([count // 100, count // 30, count // 10, count // 3, count]))
+        return 0
+    kinds, kept = given.formats or FORMATS[:2], dict[str, float]()
     with tempfile.TemporaryDirectory() as temporary:
         folder = given.keep or Path(temporary)
         for points in (count // 10, count):
             make(folder, kinds, points)
         for kind in kinds:
             found = bench(folder, kind, count)
+            kept |= figures(found, count)
             for line in report(found, count):
                 print(line, flush=True)
+    keep("big", Outcome(f"{count / 1e6:g} million points of one office, and a tenth of them", figures=kept))
     return 0
 
 

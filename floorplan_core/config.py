@@ -110,6 +110,14 @@ class VoxelConfig(Section):
     hit_ratio: float = setting(
         0.15, "", "Share of hits among hits and misses from which a voxel is occupied.", ge=0.005, le=1
     )
+    memory: float | None = setting(
+        None,
+        "MB",
+        "What the map of a survey may take in memory; more goes to temporary files, and the plan stays the "
+        "same. None: half of what is free.",
+        ge=4,
+        le=1e7,
+    )
 
 
 class SegmentsConfig(Section):

@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
+from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.layout import lay_out
 from floorplan_core.layout_wings import add_wings
+from floorplan_core.memory import fits, require_memory
 from floorplan_core.model import (
     Door,
     FloorPlan,
@@ -49,7 +51,7 @@ from floorplan_core.stages.storeys import (
     restrict_path,
     restrict_surfels,
 )
-from floorplan_core.stages.voxel_columns import gather_evidence
+from floorplan_core.stages.voxel_columns import LARGEST, gather_evidence
 from floorplan_core.stages.wall_points import thin_wall_points
 from floorplan_core.stages.wings import Part, find_wing, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
@@ -60,6 +62,9 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
+EVIDENCE_SURFEL = 60  # bytes of each surfel in the manhattan frame, where it is in memory
+STAGES_SURFEL, STAGES_COLUMN = 40, 100  # bytes that the stages take for each surfel and each fine column
+OUTLYING = (0.1, 99.9)  # percentiles of the surfels beyond which a site does not reach
 LEFT_OUT = 1.0  # m2 of free space in no region, from which the user is told
 
 
@@ -201,13 +206,23 @@ class FloorPlanner:
         """The voxel map of one storey."""
         surfels, path = self.map.surfels, self.map.path()
         own = self._own(frame)
-        if not self._is_one_of_many():
-            found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
-            return replace(found, frame=frame)
-        chosen = self.storeys()[storey]
-        surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
+        chosen = self.storeys()[storey] if self._is_one_of_many() else None
+        if chosen is not None:
+            surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
+        self._make_room(surfels, own)
         found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
-        return replace(restrict_evidence(found, chosen), frame=frame)
+        return replace(restrict_evidence(found, chosen) if chosen is not None else found, frame=frame)
+
+    def _make_room(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
+        """Surfels go to disk where the plan needs their place; :class:`NoPlanError` where that is too little."""
+        size, count = self.config.voxels.size, len(surfels)
+        xy = (self.map.sample().centroid @ own.rotation.T)[:, :2]
+        wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()
+        columns = min(wide * deep / (size / 2) ** 2, LARGEST)  # a larger site is refused for its size
+        needed = STAGES_SURFEL * count + STAGES_COLUMN * columns
+        if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * count)):
+            surfels.leave_memory()
+            require_memory(needed, f"The plan of {wide:.0f} x {deep:.0f} m in voxels of {size:g} m")
 
     def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
         """The evidence of the building and of each wing that stands at another angle; () where none does."""
@@ -329,7 +344,7 @@ def integrate_all(
         planner.integrate_chunk(chunk, reconstruction.trajectory)
         done += len(chunk.points)
         observer.progress("read", done)
-    planner.map.settle()
+    planner.map.finish()
     took = time.perf_counter() - began
     observer.stage_finished("read", took)
     return planner, took

@@ -102,7 +102,7 @@ class PlanningSession:
             planner.integrate_chunk(chunk, survey.trajectory)
             done += len(chunk.points)
             observer.progress("read", done)
-        planner.map.settle()
+        planner.map.finish()
         planner.names = self._names
         self._read_seconds = time.perf_counter() - began
         observer.stage_finished("read", self._read_seconds)

@@ -17,13 +17,14 @@ from contextlib import suppress
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.config import Config, FrameConfig
+from floorplan_core.config import Config, FrameConfig, VoxelConfig
 from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
+from floorplan_core.memory import free_memory
 from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
 from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
 
@@ -32,6 +33,7 @@ Points = NDArray[np.float64] | NDArray[np.float32]
 Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
+_SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 PIECE = 50_000  # points whose rays a thread follows before it asks for more
@@ -42,7 +44,8 @@ class SurveyMap:
     """Surfels, ray counts and the sensor's path, from scans as they come."""
 
     def __init__(self, config: Config) -> None:
-        self.surfels = SurfelMap(config.voxels.size / 2)
+        self._room = _room(config.voxels)
+        self.surfels = SurfelMap(config.voxels.size / 2, self._room)
         self.rays = MissMap(config.voxels.size)
         self._more_rays = MissMap(config.voxels.size)  # those that the second thread followed
         self.seconds = 0.0  # spent on integrating so far
@@ -113,6 +116,11 @@ class SurveyMap:
             self._add(points, scan, origins)
         self.rays.take(self._more_rays)
 
+    def finish(self) -> None:
+        """All points came: let go of what only further ones need."""
+        self.settle()
+        self.surfels.pack()
+
     def sample(self) -> Surfels:
         """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
         if self._sample is None or self._sample[0] != self.surfels.points:
@@ -162,7 +170,7 @@ class SurveyMap:
     def _begin_again(self) -> None:
         """As before anything was decided; the points so far wait for more."""
         self._waiting, self._first = self._first, []
-        self.surfels, self.rays = SurfelMap(self.surfels.size), MissMap(self.rays.size)
+        self.surfels, self.rays = SurfelMap(self.surfels.size, self._room), MissMap(self.rays.size)
         self.surfels.reserve(self._expected)
         self._lattice, self.planar, self.own, self._sample = None, False, OwnFrame(), None
 
@@ -216,6 +224,14 @@ def checked_rows(scan_id: NDArray[np.int32], trajectory: Trajectory) -> tuple[in
             f"{len(trajectory) - 1}; give the trajectory of this survey."
         )
     return first, last
+
+
+def _room(config: VoxelConfig) -> float | None:
+    """Bytes that the surfels may take in memory; None: all there is."""
+    if config.memory is not None:
+        return config.memory * 1e6
+    free = free_memory()
+    return None if free is None else _SHARE * free
 
 
 def _count(scans: list[Scan]) -> int:

@@ -2,7 +2,7 @@
 
 Integer sums do not depend on the order of addition: a survey integrated scan by scan, in chunks or at once
 gives bit for bit the same sums. One pass over the points, O(1) each; memory grows with the surface, not with
-the number of points.
+the number of points, and where a limit is set no further than that: the rest goes to disk (``surfel_runs``).
 """
 
 from __future__ import annotations
@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from floorplan_core.geometry.halves import in_halves
+from floorplan_core.geometry.scratch import disk_array, let_go
+from floorplan_core.geometry.surfel_runs import SurfelRuns
 from floorplan_core.geometry.voxel_keys import BIAS, block_slot, pack, spread
 
 Float = NDArray[np.float64]
@@ -30,6 +32,7 @@ _WORTH = 10_000  # surfels of which a second thread takes half
 _SPARSE = (
     4  # slots of the hash for each row: neighbours fill whole stretches of it, so half empty is too full
 )
+_ROW_BYTES = 4 * _SPARSE + 8 + 4 * COLUMNS  # of a surfel: its slots, its key, its sums
 _BATCH = 256  # points whose slots are looked up together: what is kept of them fits the first-level cache
 
 
@@ -49,10 +52,17 @@ class Surfels:
 
 
 class SurfelMap:
-    """A growing table of voxel sums: a hash from keys to rows, rows in the order of their first point."""
+    """A growing table of voxel sums: a hash from keys to rows, rows in the order of their first point.
 
-    def __init__(self, size: float) -> None:
-        self.size = size
+    :param size: metres, side of a voxel.
+    :param room: bytes that the table may take in memory (roughly, and no less than 4 MB); None: all there is.
+    """
+
+    def __init__(self, size: float, room: float | None = None) -> None:
+        self.size, self._room = size, room
+        self._most = None if room is None else max(_START, 1 << int(room / _ROW_BYTES).bit_length() >> 1)
+        self._runs = SurfelRuns()
+        self._on_disk = False  # True: keys and sums are arrays on disk
         self._table = np.zeros(_SPARSE * _START, dtype=np.int32)  # row + 1 of each slot; 0: empty
         self._keys = np.zeros(_START, dtype=np.int64)
         self._sums = np.zeros((_START, COLUMNS), dtype=np.int32)
@@ -60,12 +70,19 @@ class SurfelMap:
         self.points = 0  # points that were inserted
 
     def __len__(self) -> int:
+        self._gather()
         return self._used
+
+    @property
+    def on_disk(self) -> bool:
+        """True where the surfels outgrew their room: they, and what is made of them, are on disk."""
+        return self._on_disk or len(self._runs) > 0
 
     def reserve(self, surfels: int) -> None:
         """Make room for that many surfels at once instead of growing step by step."""
-        while len(self._keys) < surfels:
-            self._grow(max(2, 1 << (int(surfels - 1).bit_length() - len(self._keys).bit_length() + 1)))
+        surfels = surfels if self._most is None else min(surfels, self._most)
+        if len(self._keys) < surfels:
+            self._resize(1 << int(surfels - 1).bit_length())
 
     def insert(
         self, points: NDArray[Any], scan: NDArray[np.int32], origins: Float, limits: tuple[float, float]
@@ -75,6 +92,7 @@ class SurfelMap:
         Points that are not finite, or outside ``limits`` (nearest, farthest range, metres), are left out.
         """
         start = 0
+        self._resume()
         while start < len(points):
             start, self._used, added = _insert(
                 points,
@@ -94,17 +112,66 @@ class SurfelMap:
                 self._grow()
 
     def select(self, rows: NDArray[np.int64]) -> SurfelMap:
-        """A map of the surfels in ``rows`` (rising), each with all of its points."""
-        part = SurfelMap(self.size)
-        part.reserve(len(rows))
-        part._used = len(rows)
-        part._keys[: len(rows)], part._sums[: len(rows)] = self._keys[rows], self._sums[rows]
-        part.points = int(part._sums[: len(rows), 0].sum())
-        _fill(part._keys, part._used, part._table)
+        """A packed map of the surfels in ``rows`` (rising), each with all of its points."""
+        self._gather()
+        part = SurfelMap(self.size, self._room)
+        part._used, part._on_disk = len(rows), self._on_disk
+        part._keys, part._sums = self._array(np.int64, len(rows)), self._array(np.int32, len(rows), COLUMNS)
+        np.take(self._keys, rows, out=part._keys, mode="clip")  # rows are within: saves a copy of all of it
+        np.take(self._sums, rows, axis=0, out=part._sums, mode="clip")
+        part.points = int(part._sums[:, 0].sum())
+        part.pack()
         return part
 
-    def _grow(self, factor: int = 2) -> None:
-        capacity = factor * len(self._keys)
+    def pack(self) -> None:
+        """Let go of what only further points need; should there be some, it is made again."""
+        self._gather()
+        self._table = np.zeros(0, dtype=np.int32)
+        if self._on_disk:
+            let_go(self._sums)
+
+    def leave_memory(self) -> None:
+        """Move all surfels to disk, and with them what will be made of them."""
+        self._gather()
+        if not self._on_disk:
+            keys, sums = disk_array((self._used,), np.int64), disk_array((self._used, COLUMNS), np.int32)
+            keys[:], sums[:] = self._keys[: self._used], self._sums[: self._used]
+            self._keys, self._sums, self._on_disk = keys, sums, True
+        self.pack()
+
+    def _resume(self) -> None:
+        """Be ready for points, also after :meth:`pack` or a look at surfels on disk."""
+        if self._on_disk:
+            self._to_disk()
+        elif not len(self._table):
+            self._resize(max(_START, 1 << (len(self._keys) - 1).bit_length()))
+
+    def _gather(self) -> None:
+        """Put what is on disk and what is in memory together."""
+        if len(self._runs):
+            self._to_disk()
+            self._keys, self._sums = self._runs.merge()
+            self._table, self._used, self._on_disk = np.zeros(0, dtype=np.int32), len(self._keys), True
+
+    def _to_disk(self) -> None:
+        """Leave the surfels to the disk and begin with an empty table."""
+        self._runs.append(self._keys[: self._used], self._sums[: self._used])
+        self._used, self._on_disk = 0, False
+        self._resize(self._most or _START)
+
+    def _array(self, kind: DTypeLike, *shape: int) -> NDArray[Any]:
+        """An array for something of each surfel: where the surfels are."""
+        return disk_array(shape, kind) if self._on_disk else np.empty(shape, dtype=kind)
+
+    def _grow(self) -> None:
+        """Room for twice as many surfels; where that is too much, for as many others."""
+        if self._most is not None and 2 * len(self._keys) > self._most:
+            self._to_disk()
+        else:
+            self._resize(2 * len(self._keys))
+
+    def _resize(self, capacity: int) -> None:
+        self._table = np.zeros(0, dtype=np.int32)  # before the new one is made
         keys, sums = np.zeros(capacity, dtype=np.int64), np.zeros((capacity, COLUMNS), dtype=np.int32)
         keys[: self._used], sums[: self._used] = self._keys[: self._used], self._sums[: self._used]
         self._keys, self._sums = keys, sums
@@ -116,14 +183,15 @@ class SurfelMap:
 
         With ``every`` > 1 only one in so many blocks of voxels, whole and chosen by a hash of its place.
         """
+        self._gather()
         rows = self._chosen(every) if every > 1 else np.arange(self._used)
         n = len(rows)
-        centroid, count, variance, view = (
-            np.empty((n, 3)),
-            np.empty(n, dtype=np.int32),
-            np.empty((n, 3)),
-            np.empty((n, 2)),
+        centroid, variance, view = (
+            self._array(float, n, 3),
+            self._array(float, n, 3),
+            self._array(float, n, 2),
         )
+        count = self._array(np.int32, n)
 
         def part(start: int, stop: int) -> None:
             out = (centroid, count, variance, view)
@@ -145,14 +213,20 @@ class SurfelMap:
 
         Centroids (N, 3), counts (N,), variances along the new x and y (N, 2) and views (N, 2).
         """
+        self._gather()
         n, r = self._used, np.ascontiguousarray(rotation)
-        xyz, variance, view = np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 2))
+        xyz, variance, view = self._array(float, n, 3), self._array(float, n, 2), self._array(float, n, 2)
+        count = self._array(np.int32, n)
 
         def part(start: int, stop: int) -> None:
             _turn(self._keys, self._sums, self.size, r, lift, xyz, variance, view, start, stop)
 
         in_halves(part, n, worth=_WORTH)
-        return xyz, self._sums[:n, 0].copy(), variance, view
+        count[:] = self._sums[:n, 0]
+        if self._on_disk:
+            for array in (self._sums, xyz, variance, view):
+                let_go(array)
+        return xyz, count, variance, view
 
 
 @njit(cache=True, nogil=True)

@@ -16,11 +16,13 @@ LONG = 7
 MAX_EXPANSION = 88  # three bytes give at most 264
 
 
-def decompress(data: NDArray[np.uint8], size: int) -> NDArray[np.uint8] | None:
-    """The ``size`` bytes that ``data`` holds, or None where it is damaged or of another size."""
+def decompress(
+    data: NDArray[np.uint8], size: int, out: NDArray[np.uint8] | None = None
+) -> NDArray[np.uint8] | None:
+    """The ``size`` bytes that ``data`` holds (in ``out``), or None where it is damaged or of another size."""
     if size > len(data) * MAX_EXPANSION:
         return None
-    out = np.empty(size, dtype=np.uint8)
+    out = np.empty(size, dtype=np.uint8) if out is None else out
     return out if _decompress(data, out) == size else None
 
 

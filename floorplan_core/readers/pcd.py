@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.errors import InputError
+from floorplan_core.geometry.scratch import disk_array
 from floorplan_core.model import Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
@@ -43,6 +44,7 @@ from floorplan_core.readers.text_rows import (
 )
 from floorplan_core.readers.trajectory import rotation_from_quaternion
 
+KEPT_BYTES = 64 << 20  # of unpacked points: more are not in memory but in a temporary file
 SIZES_BYTES = 8  # of the two sizes before compressed data
 
 
@@ -145,11 +147,13 @@ def _text_source(path: Path, header: PcdHeader, columns: _Columns) -> PointSourc
 
 
 def _compressed_source(path: Path, header: PcdHeader, columns: _Columns) -> PointSource:
-    sample, scan_ids = _inspect(_unpack(path, header), header, columns)
+    arrays = _unpack(path, header)
+    sample, scan_ids = _inspect(arrays, header, columns)
+    kept = [arrays] if header.points * header.dtype.itemsize > KEPT_BYTES else []
     return PointSource(
         path,
         "PCD",
-        partial(_compressed_chunks, path, header, columns),
+        partial(_compressed_chunks, path, header, columns, kept),
         lambda: sample,
         header.points,
         columns.scan_id is not None,
@@ -157,9 +161,11 @@ def _compressed_source(path: Path, header: PcdHeader, columns: _Columns) -> Poin
     )
 
 
-def _compressed_chunks(path: Path, header: PcdHeader, columns: _Columns) -> Iterator[RawChunk]:
-    """The format packs all points as one block, so a pass holds them all; nothing stays after it."""
-    arrays = _unpack(path, header)
+def _compressed_chunks(
+    path: Path, header: PcdHeader, columns: _Columns, kept: Sequence[dict[str, NDArray[Any]]]
+) -> Iterator[RawChunk]:
+    """The format packs all points as one block: a large one was unpacked into a file, once."""
+    arrays = kept[0] if kept else _unpack(path, header)
     for start in range(0, header.points, CHUNK_POINTS):
         yield _slice(arrays, columns, slice(start, start + CHUNK_POINTS))
 
@@ -171,8 +177,12 @@ def _inspect(
     sample = _slice(arrays, columns, slice(None, None, stride))
     if columns.scan_id is None:
         return sample, None
-    ids = as_scan_id(arrays[columns.scan_id])
-    return sample, ScanIds(int(ids.min()), int(ids.max()), bool((ids[1:] >= ids[:-1]).all()))
+    lowest, highest, ordered, last = np.iinfo(np.int32).max, np.iinfo(np.int32).min, True, -1
+    for start in range(0, header.points, CHUNK_POINTS):
+        ids = as_scan_id(arrays[columns.scan_id][start : start + CHUNK_POINTS])
+        ordered = ordered and (start == 0 or last <= ids[0]) and bool((ids[1:] >= ids[:-1]).all())
+        lowest, highest, last = min(lowest, int(ids.min())), max(highest, int(ids.max())), int(ids[-1])
+    return sample, ScanIds(lowest, highest, ordered)
 
 
 def _slice(arrays: dict[str, NDArray[Any]], columns: _Columns, part: slice) -> RawChunk:
@@ -207,7 +217,11 @@ def _unpack(path: Path, header: PcdHeader) -> dict[str, NDArray[Any]]:
                 f"{path.name} is damaged: its {header.points:,} points of {header.dtype.itemsize} bytes "
                 f"do not agree with {unpacked:,} bytes unpacked from {packed:,}."
             )
-        raw = decompress(np.fromfile(handle, np.uint8, packed), unpacked)
+        if unpacked > KEPT_BYTES:
+            held = np.memmap(handle, np.uint8, "r", header.size + SIZES_BYTES, (packed,))
+            raw = decompress(np.asarray(held), unpacked, disk_array((unpacked,), np.uint8))
+        else:
+            raw = decompress(np.fromfile(handle, np.uint8, packed), unpacked)
     if raw is None:
         raise InputError(f"{path.name} is damaged: its compressed points cannot be unpacked.")
     arrays, start = {}, 0

@@ -40,6 +40,7 @@ _HIST_BIN = 0.0025
 _BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
 _OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WIDEST = 0.04  # m, standard deviation that a surface may have
+_AT_A_TIME = 2  # facings: each takes 48 bytes for each fine column, 400 of them a square metre
 ALL_LEVELS = np.uint64((1 << 64) - 1)
 
 Judgement = tuple[bool, tuple[str, ...]]  # structure or not, and why
@@ -99,7 +100,7 @@ def find_segments(
 ) -> tuple[tuple[LayoutSegment, ...], dict[str, SegmentRows]]:
     """All segments, by facing, then offset, then start; and the rows that each is made of."""
     upright = upright_surfels(evidence, _SKIRTING, wall_band(evidence))
-    with ThreadPoolExecutor(len(Facing)) as pool:
+    with ThreadPoolExecutor(_AT_A_TIME) as pool:
         found = list(pool.map(lambda facing: _segments_of(upright, facing, config), Facing))
     segments: list[LayoutSegment] = []
     rows: dict[str, SegmentRows] = {}

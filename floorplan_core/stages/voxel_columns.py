@@ -25,7 +25,7 @@ Float = NDArray[np.float64]
 _SAMPLE = 200_000  # surfels from which the extent is taken
 _WORTH = 200_000  # surfels of which a second thread takes half
 _MARGIN = 1.0  # m of empty cells around the data
-_LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
+LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
 
 
 def gather_evidence(
@@ -75,7 +75,7 @@ def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]
         low, high = np.minimum(low, path.min(axis=0)), np.maximum(high, path.max(axis=0))
     origin = np.floor((low - _MARGIN) / cell) * cell
     nx, ny = (int(n) for n in np.ceil((high + _MARGIN - origin) / cell))
-    if 4 * nx * ny > _LARGEST:
+    if 4 * nx * ny > LARGEST:
         raise NoPlanError(
             f"The points spread over {nx * cell:.0f} x {ny * cell:.0f} m, too much for cells of {cell:g} m; "
             "check the unit (--set input.unit=...), crop the survey, or enlarge voxels.size."

@@ -7,7 +7,9 @@ import pytest
 
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
-from floorplan_core.readers import open_survey
+from floorplan_core.geometry.scratch import disk_array
+from floorplan_core.readers import open_survey, pcd
+from floorplan_core.readers.source import ScanIds
 from tests.readers.reader_clouds import all_points, room, write_pcd, xyz_columns
 
 AS_IT_IS = InputConfig(unit="m", up="z")
@@ -27,6 +29,25 @@ def test_round_trip(tmp_path, cloud, storage, dtype):
     points, ids = all_points(open_survey(write_pcd(tmp_path / "a.pcd", storage, columns), config=AS_IT_IS))
     np.testing.assert_allclose(points, cloud, atol=1e-5)
     np.testing.assert_array_equal(ids, np.arange(n))
+
+
+@pytest.mark.parametrize("ids", [np.arange, lambda n, dtype: np.arange(n, dtype=dtype)[::-1]])
+def test_a_large_compressed_file_is_unpacked_on_disk(tmp_path, cloud, ids, monkeypatch):
+    columns = xyz_columns(cloud, "f4", scan_id=np.ascontiguousarray(ids(len(cloud), dtype="u4")))
+    path = write_pcd(tmp_path / "a.pcd", "binary_compressed", columns)
+    made: list[tuple[int, ...]] = []
+    monkeypatch.setattr(pcd, "CHUNK_POINTS", 100)
+    small = pcd.pcd_source(path)
+    usual = list(small.chunks())
+    monkeypatch.setattr(pcd, "KEPT_BYTES", 64)
+    monkeypatch.setattr(pcd, "disk_array", lambda shape, kind: made.append(shape) or disk_array(shape, kind))
+    large = pcd.pcd_source(path)
+    for _ in range(2):
+        for a, b in zip(usual, large.chunks(), strict=True):
+            assert a.points.tobytes() == b.points.tobytes()
+            assert a.scan_id.tobytes() == b.scan_id.tobytes()
+    assert made == [(16 * len(cloud),)]  # once, for two passes
+    assert large.scan_ids == small.scan_ids == ScanIds(0, len(cloud) - 1, ids is np.arange)
 
 
 def test_fields_with_counts_and_padding(tmp_path, cloud):
