@@ -24,7 +24,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from itertools import chain
 from pathlib import Path
@@ -38,14 +38,15 @@ from benchmarks.record import report as keep
 
 FORMATS = ("laz", "e57", "ply")
 RAYS = 900_000  # of one turn of the scanner: memory while the cloud is made
-ROOMS, FEW_ROOMS = 80, 6  # of the office; of what stands for it at higher densities
+OFFICE = {"style": "grid", "rooms": 80}
+FEW_ROOMS = {"style": "straight", "rooms": 2}  # what stands for it at higher densities
 ASPECT, RETURNS = 2.4, 0.98  # columns by rows of a turn; share of its rays that come back
 SEED, YAW = 5, 17.0
 PROJECTED = 10**9
 Turn = tuple[np.ndarray, np.ndarray, int]  # (N, 3) points in the station's frame, its pose, its number
 
 
-def turns(count: int, folder: Path, rooms: int = ROOMS) -> Iterator[Turn]:
+def turns(count: int, folder: Path, kind: Mapping[str, Any] = OFFICE) -> Iterator[Turn]:
     """``count`` ray casts, turn by turn; the truth and the stations go to ``folder``."""
     from floorplan_core.simulation import BuildingSpec, SurveySpec, sensor_preset
     from floorplan_core.simulation.architect import make_building
@@ -55,7 +56,7 @@ def turns(count: int, folder: Path, rooms: int = ROOMS) -> Iterator[Turn]:
     from floorplan_core.simulation.truth import ground_truth
     from floorplan_core.simulation.walk import explore, floor_grid
 
-    spec = SurveySpec(BuildingSpec(style="grid", rooms=rooms), sensor_preset("station"), seed=SEED)
+    spec = SurveySpec(BuildingSpec(**kind), sensor_preset("station"), seed=SEED)
     rng = np.random.default_rng(SEED)
     building = make_building(spec.building, rng)
     walk = explore(building, floor_grid(building), 1.0, rng)
@@ -276,39 +277,37 @@ def figures(found: dict[str, Any], count: int) -> dict[str, float]:
 def saturation(densities: Sequence[int]) -> Outcome:
     """How many voxels the points fill, at the density of so many points in the whole office.
 
-    A few rooms are scanned as densely: a thousand million points of the office are some fifty million here.
+    A few rooms are scanned as densely.
     """
     from floorplan_core.geometry.ray_carving import MissMap
     from floorplan_core.geometry.surfel_map import SurfelMap
 
-    surfels, rays, done, rows = SurfelMap(0.05), MissMap(0.1), 0, []
+    rows: list[tuple[float, float, int, int]] = []
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        next(turns(len(densities), folder))  # the truth of the office
+        next(turns(RAYS, folder))
         office = _area(folder / "truth.json")
-        stream = turns(10**9, folder, FEW_ROOMS)
-        first = next(stream)
-        share = _area(folder / "truth.json") / office
-        for points, pose, _ in chain([first], stream):
-            world = points @ pose[:3, :3].T + pose[:3, 3]
-            near = np.zeros(len(world), dtype=np.int32), pose[None, :3, 3].copy(), (0.05, 30.0)
-            surfels.insert(world, *near)
-            rays.carve(world, *near)
-            done += len(points)
-            while len(rows) < len(densities) and done >= densities[len(rows)] * share:
-                rows.append((densities[len(rows)] / 1e6, done / 1e6, len(surfels), rays.blocks))
-            if len(rows) == len(densities):
-                break
+        next(turns(RAYS, folder, FEW_ROOMS))
+        area = _area(folder / "truth.json")
+        for density in densities:
+            surfels, rays, count = SurfelMap(0.05), MissMap(0.1), round(density * area / office)
+            for points, pose, _ in turns(count, folder, FEW_ROOMS):
+                world = points @ pose[:3, :3].T + pose[:3, 3]
+                near = np.zeros(len(world), dtype=np.int32), pose[None, :3, 3].copy(), (0.05, 30.0)
+                surfels.insert(world, *near)
+                rays.carve(world, *near)
+            rows.append((density / 1e6, count / 1e6, len(surfels), rays.blocks))
     header = ("M points of the office", "M points here", "surfels", "blocks of rays")
-    found = {f"surfels a m2 at {row[0]:g} M": row[2] / (office * share) for row in rows}
-    return Outcome("voxels that hold points, by density", header, rows, found)
+    found = {f"surfels a m2 at {row[0]:g} M": row[2] / area for row in rows}
+    return Outcome(f"voxels that points fill in {area:.0f} m2, by their density", header, rows, found)
 
 
 def _area(truth: Path) -> float:
-    """m2 of the rooms."""
+    """m2 of the rooms that were entered."""
     from shapely.geometry import Polygon
 
-    return sum(Polygon(room["polygon"]).area for room in json.loads(truth.read_text())["rooms"])
+    rooms = json.loads(truth.read_text())["rooms"]
+    return sum(Polygon(room["polygon"]).area for room in rooms if room["entered"])
 
 
 def report(found: dict[str, Any], count: int) -> Iterator[str]:

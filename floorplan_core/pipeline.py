@@ -214,7 +214,7 @@ class FloorPlanner:
         return replace(restrict_evidence(found, chosen) if chosen is not None else found, frame=frame)
 
     def _make_room(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
-        """Surfels go to disk where the plan needs their place; :class:`NoPlanError` where that is too little."""
+        """Surfels go to disk where the plan needs their place; :class:`NoPlanError` if that is too little."""
         size, count = self.config.voxels.size, len(surfels)
         xy = (self.map.sample().centroid @ own.rotation.T)[:, :2]
         wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()

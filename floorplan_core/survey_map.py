@@ -22,9 +22,9 @@ from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
-from floorplan_core.geometry.ray_carving import MissMap
+from floorplan_core.geometry.ray_carving import BLOCK, MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
-from floorplan_core.memory import free_memory
+from floorplan_core.memory import free_memory, require_memory
 from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
 from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
 
@@ -34,6 +34,7 @@ Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
+_MANY_RAYS, _STEP = 100e6, 1.2  # bytes of ray counts from which free memory is looked at; and how often
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 PIECE = 50_000  # points whose rays a thread follows before it asks for more
@@ -53,6 +54,7 @@ class SurveyMap:
         self.own = OwnFrame()  # of the map: what takes the local frame into it
         self._limits = (config.input.min_range, config.input.max_range)
         self._own_axes = config.voxels.own_axes
+        self._checked = 0  # bytes of ray counts at which free memory was looked at last
         self._path: list[Float] = []
         self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
         self._pool = ThreadPoolExecutor(1)
@@ -189,7 +191,15 @@ class SurveyMap:
         self.surfels.insert(points, scan, origins, self._limits)
         carve(self._more_rays)
         carving.result()
+        self._check_rays()
         self.seconds += time.perf_counter() - began
+
+    def _check_rays(self) -> None:
+        """Raise :class:`NoPlanError` where there is no memory for the ray counts to grow once more."""
+        taken = (self.rays.blocks + self._more_rays.blocks) * BLOCK**3
+        if taken > max(_MANY_RAYS, _STEP * self._checked):
+            self._checked = taken
+            require_memory(2 * taken, f"The free space of {self.surfels.points:,} points")
 
     def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
         """The scan in the frame of the map, with a voxel map subdivided and a planar scan lifted."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import floorplan_core as fc
-from floorplan_core import memory
+from floorplan_core import memory, survey_map
 from floorplan_core.cli.main import run
 from floorplan_core.errors import NoPlanError
 from floorplan_core.exporters.geojson import geojson_text
@@ -85,3 +86,14 @@ def test_a_plan_for_which_there_is_no_memory_is_not_begun(tmp_path, monkeypatch,
     said = capsys.readouterr().err
     assert "more memory, and 66 MB are free" in " ".join(said.split())
     assert not (tmp_path / "plan").exists()
+
+
+def test_ray_counts_for_which_there_is_no_memory_are_not_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(memory, "_MEMINFO", _meminfo(tmp_path, 66))
+    monkeypatch.setattr(survey_map, "_MANY_RAYS", 2e6)
+    planner = fc.FloorPlanner(fc.Config())
+    with pytest.raises(NoPlanError, match=r"free space of [\d,]+ points takes about \d+ MB.* 66 MB are free"):
+        for x in range(0, 300, 20):
+            angle = np.linspace(0, 2 * np.pi, 120_000)
+            ring = np.column_stack([x + 9 * np.cos(angle), 9 * np.sin(angle), 2 + 2 * np.sin(9 * angle)])
+            planner.integrate(ring, np.eye(4))

@@ -1228,6 +1228,10 @@
    <translation>{0} m messen</translation>
   </message>
   <message>
+   <source>Memory</source>
+   <translation>Speicher</translation>
+  </message>
+  <message>
    <source>Merge</source>
    <translation>Vereinen</translation>
   </message>
@@ -2890,6 +2894,10 @@
   <message>
    <source>What the laser meter said: double-click and type, like 3.2, 320 cm or 10' 6"</source>
    <translation>Was das Lasermessgerät sagte: doppelklicken und eingeben, etwa 3,2 oder 320 cm oder 10' 6"</translation>
+  </message>
+  <message>
+   <source>What the map of a survey may take in memory; more goes to temporary files, and the plan stays the same. None: half of what is free.</source>
+   <translation>Was die Karte einer Aufnahme im Arbeitsspeicher belegen darf; mehr kommt in temporäre Dateien, und der Plan bleibt derselbe. Keine Angabe: die Hälfte dessen, was frei ist.</translation>
   </message>
   <message>
    <source>What the points are coloured by</source>
