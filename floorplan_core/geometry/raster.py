@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numba import njit
 from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
@@ -36,9 +37,8 @@ def polygon_window(
     x0, y0, x1, y1 = polygon.bounds
     i0, i1 = (_index(v, origin[0], cell, shape[1]) for v in (x0, x1))
     j0, j1 = (_index(v, origin[1], cell, shape[0]) for v in (y0, y1))
-    crossings = np.zeros((j1 - j0, i1 - i0 + 1), dtype=bool)
-    _toggle(crossings, _edges(polygon), (i0, j0), origin, cell)
-    return (slice(j0, j1), slice(i0, i1)), np.logical_xor.accumulate(crossings[:, :-1], axis=1)
+    edges = edges_of(polygon)
+    return (slice(j0, j1), slice(i0, i1)), _fill(edges, i0, j0, i1 - i0, j1 - j0, origin[0], origin[1], cell)
 
 
 def _index(value: float, origin: float, cell: float, count: int) -> int:
@@ -46,36 +46,40 @@ def _index(value: float, origin: float, cell: float, count: int) -> int:
     return min(max(math.ceil((value - origin) / cell - 0.5), 0), count)
 
 
-def _edges(polygon: Any) -> Float:
+def edges_of(polygon: Any) -> Float:
     """(E, 4) x0, y0, x1, y1 of the edges of all rings."""
+    if polygon.geom_type == "Polygon" and not shapely.get_num_interior_rings(polygon):
+        points = shapely.get_coordinates(polygon)
+        return np.hstack([points[:-1], points[1:]])
     rings = shapely.get_rings(shapely.get_parts(polygon))
     points, ring = shapely.get_coordinates(rings, return_index=True)
     same = ring[1:] == ring[:-1]
     return np.hstack([points[:-1][same], points[1:][same]])
 
 
-def _toggle(crossings: Bool, edges: Float, corner: tuple[int, int], origin: Float, cell: float) -> None:
-    """Mark, in each row that an edge crosses, the first cell to its right: even-odd fill, row by row.
+@njit(cache=True, nogil=True)
+def _fill(edges, i0, j0, nx, ny, left, bottom, cell):  # type: ignore[no-untyped-def]
+    """(ny, nx) even-odd fill: each edge marks, in each row that it crosses, the first cell to its right.
 
     Cells are counted on the whole grid, so that polygons that share an edge round it alike.
     """
-    (i0, j0), (ny, nx) = corner, crossings.shape
-    x0, y0, x1, y1 = edges.T
-    low, high = np.minimum(y0, y1), np.maximum(y0, y1)
-    rows = np.ceil((np.stack([low, high]) - origin[1]) / cell - 0.5).clip(j0, j0 + ny).astype(np.int64) - j0
-    columns = np.ceil((x0 - origin[0]) / cell - 0.5).clip(0, i0 + nx - 1).astype(np.int64) - i0
-    upright, crossed = x0 == x1, rows[0] < rows[1]
-    for column, first, last in zip(
-        *(part[upright & crossed].tolist() for part in (columns, *rows)), strict=True
-    ):
-        crossings[first:last, column] ^= True
-    for k in np.flatnonzero(~upright & crossed):
-        row = np.arange(*rows[:, k]) + j0
-        x = x0[k] + (origin[1] + cell * (row + 0.5) - y0[k]) * ((x1[k] - x0[k]) / (y1[k] - y0[k]))
-        column = np.ceil((x - origin[0]) / cell - 0.5).astype(np.int64) - i0
-        crossings[row - j0, np.clip(column, 0, nx - 1)] ^= (
-            True  # a row crosses an edge once: no index repeats
-        )
+    crossings = np.zeros((ny, nx + 1), dtype=np.bool_)
+    for x0, y0, x1, y1 in edges:
+        first = min(max(math.ceil((min(y0, y1) - bottom) / cell - 0.5), j0), j0 + ny) - j0
+        last = min(max(math.ceil((max(y0, y1) - bottom) / cell - 0.5), j0), j0 + ny) - j0
+        for row in range(first, last):
+            x = x0
+            if x1 != x0:
+                x += (bottom + cell * (row + j0 + 0.5) - y0) * ((x1 - x0) / (y1 - y0))
+            column = math.ceil((x - left) / cell - 0.5) - i0
+            crossings[row, min(max(column, 0), nx)] ^= True
+    out = np.empty((ny, nx), dtype=np.bool_)
+    for row in range(ny):
+        inside = False
+        for column in range(nx):
+            inside ^= crossings[row, column]
+            out[row, column] = inside
+    return out
 
 
 def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:

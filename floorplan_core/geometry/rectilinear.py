@@ -32,14 +32,19 @@ def corners(ring: Float) -> Float:
         points = points[keep]
 
 
-def move_sides(ring: Float, target: Callable[[list[float], list[float]], float]) -> Float:
-    """(N, 2) corners with every side moved to the offset ``target(start, end)`` across its own direction."""
-    kept = corners(ring)
-    points, out = kept.tolist(), kept.copy()
-    for k in range(len(points)):
-        a, b = points[k], points[(k + 1) % len(points)]
-        across = 0 if abs(a[0] - b[0]) < _SAME else 1
-        out[k, across] = out[(k + 1) % len(points), across] = target(a, b)
+def move_sides(ring: Float, targets: Callable[[Float], Float]) -> Float:
+    """(N, 2) corners of a ring with every side moved across its own direction.
+
+    :param targets: of the (N, 2) corners, the (N,) offsets to which the sides that begin there are moved.
+    """
+    points = corners(ring)
+    if len(points) == 0:
+        return points
+    out, following = points.copy(), np.roll(np.arange(len(points)), -1)
+    across = (np.abs(points[:, 0] - points[following, 0]) >= _SAME).astype(np.int64)
+    offsets = targets(points)
+    out[np.arange(len(points)), across] = offsets
+    out[following, across] = offsets
     return out
 
 
@@ -135,6 +140,19 @@ def without_slits(shape: Any, width: float) -> Any:
 def _narrow_side(ring: Any) -> float:
     x0, y0, x1, y1 = ring.bounds
     return float(min(x1 - x0, y1 - y0))
+
+
+def chords(edges: Float, axis: int, offset: float) -> list[tuple[float, float]]:
+    """From where to where along the line at ``offset`` across ``axis`` it runs inside a polygon, in order.
+
+    A line along a side counts as just beyond it in the positive direction.
+
+    :param edges: (E, 4) x0, y0, x1, y1 of all rings of the polygon.
+    """
+    crossed = edges[(edges[:, axis] <= offset) != (edges[:, axis + 2] <= offset)]
+    u0, v0, u1, v1 = crossed[:, [axis, 1 - axis, axis + 2, 3 - axis]].T
+    at = np.sort(v0 + (offset - u0) * ((v1 - v0) / (u1 - u0))).tolist()
+    return list(zip(at[::2], at[1::2], strict=True))
 
 
 def polygons_of(shape: Any) -> list[Any]:

@@ -7,16 +7,15 @@ near a border.
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.model import Door, LayoutPlane
 
 Float = NDArray[np.float64]
-Box = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 _OVERLAP = 0.3  # m on both sides: less is a shared border, not an overlap
 _PASSAGE = 0.6  # m of a shared border without wall or door, from which two rectangles are one region
@@ -49,53 +48,93 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
         label[:, None] != label
     )  # others touch and are one region anyway
     border = parted & (np.minimum(wide, high) > -_OVERLAP) & (np.maximum(wide, high) > _PASSAGE) & ~linked
-    bridges: dict[int, list[Box]] = {}
-    boxes, by_offset = bounds.tolist(), {axis: _by_offset(rows) for axis, rows in walls.items()}
-    for i, j in np.argwhere(np.triu(border, 1)).tolist():
-        axis = 0 if wide[i, j] < high[i, j] else 1
-        joints = _open_border(boxes[i], boxes[j], axis, *by_offset[axis])
-        if joints:
-            linked[i, j] = linked[j, i] = True
-            bridges.setdefault(i, []).extend(joints)
+    pairs = np.argwhere(np.triu(border, 1))
+    axes = np.where(wide[pairs[:, 0], pairs[:, 1]] < high[pairs[:, 0], pairs[:, 1]], 0, 1)
+    pair, boxes = _open_borders(bounds, pairs, axes, *(_by_offset(walls[axis]) for axis in (0, 1)))
+    first, second = pairs[pair].T
+    linked[first, second] = linked[second, first] = True
     label = _components(linked)
     groups = [np.flatnonzero(label == k) for k in range(int(label.max()) + 1)]
-    return [(g, np.array([b for i in g for b in bridges.get(int(i), [])]).reshape(-1, 4)) for g in groups]
+    return [(g, boxes[label[first] == k]) for k, g in enumerate(groups)]  # by row, as they were found
 
 
-def _components(linked: NDArray[np.bool_]) -> NDArray[np.int64]:
+@njit(cache=True, nogil=True)
+def _components(linked):  # type: ignore[no-untyped-def]
     """(C,) the component of each node of a symmetric adjacency matrix, numbered by their first nodes.
 
     A few lines, where the module of SciPy that has it takes a quarter of a second to import.
     """
     label = np.full(len(linked), -1, dtype=np.int64)
-    for first in range(len(linked)):
-        if label[first] < 0:
-            number = int(label.max()) + 1
-            label[first], open_ = number, [first]
-            while open_:
-                new = np.flatnonzero(linked[open_.pop()] & (label < 0))
-                label[new] = number
-                open_ += new.tolist()
+    open_, number = np.empty(len(linked), dtype=np.int64), 0
+    for node in range(len(linked)):
+        if label[node] >= 0:
+            continue
+        label[node], open_[0], many = number, node, 1
+        while many > 0:
+            many -= 1
+            at = open_[many]
+            for other in range(len(linked)):
+                if linked[at, other] and label[other] < 0:
+                    label[other], open_[many] = number, other
+                    many += 1
+        number += 1
     return label
 
 
-def _by_offset(walls: Float) -> tuple[list[float], list[tuple[float, float]]]:
-    """The offsets in order, and start and end of each."""
-    ordered = walls[np.argsort(walls[:, 0], kind="stable")]
-    return ordered[:, 0].tolist(), [(s, e) for s, e in ordered[:, 1:].tolist()]
+def _by_offset(walls: Float) -> Float:
+    """The walls in the order of their offsets; of equal ones in that of their starts and ends."""
+    return walls[np.lexsort((walls[:, 2], walls[:, 1], walls[:, 0]))]
 
 
-def _open_border(
-    a: list[float], b: list[float], axis: int, offsets: list[float], runs: list[tuple[float, float]]
-) -> list[Box]:
-    """Boxes across the parts of the border of two rectangles that are not wall or door, if wide enough."""
-    near = sorted((max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])))
-    low, high = max(a[1 - axis], b[1 - axis]), min(a[3 - axis], b[3 - axis])
-    hit = runs[bisect_right(offsets, near[0] - _NEAR) : bisect_left(offsets, near[1] + _NEAR)]
-    at, boxes = low, []
-    for start, end in [*sorted(hit), (high, high)]:
-        v0, v1 = at, min(start, high)
-        if v1 - v0 >= _PASSAGE:
-            boxes.append((near[0], v0, near[1], v1) if axis == 0 else (v0, near[0], v1, near[1]))
-        at = max(at, end)
-    return boxes
+def _open_borders(
+    bounds: Float, pairs: NDArray[np.int64], axes: NDArray[np.int64], upright: Float, level: Float
+) -> tuple[NDArray[np.int64], Float]:
+    """Boxes across the parts of the borders of pairs of rectangles that are not wall, and the pair of each.
+
+    :param axes: (P,) across which each border lies; ``upright`` and ``level`` walls are by offset.
+    """
+    counted = _fill_borders(bounds, pairs, axes, upright, level, np.empty(0, np.int64), np.empty((0, 4)))
+    pair, boxes = np.empty(counted, dtype=np.int64), np.empty((counted, 4))
+    _fill_borders(bounds, pairs, axes, upright, level, pair, boxes)
+    return pair, boxes
+
+
+@njit(cache=True, nogil=True)
+def _fill_borders(bounds, pairs, axes, upright, level, pair, boxes):  # type: ignore[no-untyped-def]
+    """Fill ``pair`` and ``boxes`` as far as there is room; returns how many there are."""
+    count = 0
+    runs = np.empty((max(len(upright), len(level)) + 1, 2))
+    for p in range(len(pairs)):
+        a, b, axis = bounds[pairs[p, 0]], bounds[pairs[p, 1]], axes[p]
+        walls = upright if axis == 0 else level
+        u0, u1 = max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])
+        u0, u1 = min(u0, u1), max(u0, u1)
+        at, high = max(a[1 - axis], b[1 - axis]), min(a[3 - axis], b[3 - axis])
+        many = _runs_near(walls, u0 - _NEAR, u1 + _NEAR, runs)
+        runs[many, 0] = runs[many, 1] = high
+        for r in range(many + 1):
+            end = min(runs[r, 0], high)
+            if end - at >= _PASSAGE:
+                if count < len(boxes):
+                    pair[count] = p
+                    boxes[count, axis], boxes[count, axis + 2] = u0, u1
+                    boxes[count, 1 - axis], boxes[count, 3 - axis] = at, end
+                count += 1
+            at = max(at, runs[r, 1])
+    return count
+
+
+@njit(cache=True, nogil=True)
+def _runs_near(walls, low, high, runs):  # type: ignore[no-untyped-def]
+    """Put start and end of the walls between two offsets, neither included, into ``runs``, in order."""
+    many = 0
+    for w in range(np.searchsorted(walls[:, 0], low, side="right"), len(walls)):
+        if walls[w, 0] >= high:
+            break
+        k = many
+        while k > 0 and runs[k - 1, 0] > walls[w, 1]:
+            runs[k, 0], runs[k, 1] = runs[k - 1, 0], runs[k - 1, 1]
+            k -= 1
+        runs[k, 0], runs[k, 1] = walls[w, 1], walls[w, 2]
+        many += 1
+    return many

@@ -169,7 +169,7 @@ class RoomGrower:
         for side in self._sides(polygon):
             a, b = np.array(side.start), np.array(side.end)
             along = int(abs(a[0] - b[0]) < abs(a[1] - b[1]))
-            for _, start, end, _ in self._walls.along(a, b)[0]:
+            for start, end in self._walls.along(a, b):
                 low[along], high[along] = min(low[along], start), max(high[along], end)
                 low[1 - along] = min(low[1 - along], a[1 - along])
                 high[1 - along] = max(high[1 - along], a[1 - along])

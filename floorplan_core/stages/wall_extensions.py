@@ -16,8 +16,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.raster import polygon_window
-from floorplan_core.geometry.rectilinear import polygons_of
+from floorplan_core.geometry.raster import edges_of, polygon_window
+from floorplan_core.geometry.rectilinear import chords, polygons_of
 from floorplan_core.model import LayoutPlane, OccupancyGrid
 
 Float = NDArray[np.float64]
@@ -36,12 +36,13 @@ class WallExtender:
     def __init__(self, planes: Sequence[LayoutPlane], grid: OccupancyGrid, thickness: float) -> None:
         seen = [p for p in planes if not p.speculated and not p.recess and p.by_hand != "hidden"]
         self._grid, self._thickness = grid, thickness
-        self._walls = [
-            (p.facing.axis, p.offset - p.facing.sign * thickness / 2, float(s), float(e))
+        walls = [
+            (p.facing.axis, p.offset - p.facing.sign * thickness / 2, s, e)
             for p in seen
-            for s, e in p.walls
+            for s, e in p.walls.tolist()
             if e - s > _SHORTEST and _observed(p, s, e) > _SHORTEST
         ]
+        self._walls = np.array(walls, dtype=np.float64).reshape(-1, 4)  # axis, middle, start, end
         self._crossing = {
             axis: np.array(
                 [(p.offset, s, e) for p in seen if p.facing.axis == axis for s, e in p.walls]
@@ -51,8 +52,9 @@ class WallExtender:
 
     def split(self, polygon: Any) -> list[Any]:
         """The polygon, or the parts in which anything was seen, each split again."""
-        for axis, middle, start, end in self._walls:
-            cut = self._cut(polygon, axis, middle, start, end)
+        edges = edges_of(polygon)
+        for axis, middle, start, end in self._within(polygon).tolist():
+            cut = self._cut(edges, int(axis), middle, start, end)
             parts = [] if cut is None else polygons_of(shapely.difference(polygon, cut))
             if len(parts) > 1:
                 seen = [part for part in parts if self._free(part) >= _LEAST]
@@ -60,16 +62,19 @@ class WallExtender:
                     return [room for part in seen for room in self.split(part)]
         return [polygon]
 
-    def _cut(self, polygon: Any, axis: int, middle: float, start: float, end: float) -> Any:
-        """The box along the wall's line to the far sides of the polygon; None where something stops it."""
+    def _within(self, polygon: Any) -> Float:
+        """The walls that are no sides of the polygon, and not elsewhere in the building."""
         x0, y0, x1, y1 = polygon.bounds
-        (low, high), (first, last) = ((x0, x1), (y0, y1)) if axis == 0 else ((y0, y1), (x0, x1))
-        if not low + _INSIDE < middle < high - _INSIDE:
-            return None
-        if not (first < end + _INSIDE and last > start - _INSIDE):
-            return None  # a wall elsewhere in the building
-        line = shapely.LineString(_across(axis, middle, first, last))
-        inside = [_along(axis, piece) for piece in shapely.get_parts(line.intersection(polygon))]
+        axis, middle, start, end = self._walls.T
+        upright = axis == 0
+        low, high = np.where(upright, x0, y0), np.where(upright, x1, y1)
+        first, last = np.where(upright, y0, x0), np.where(upright, y1, x1)
+        inside = (low + _INSIDE < middle) & (middle < high - _INSIDE)
+        return np.asarray(self._walls[inside & (first < end + _INSIDE) & (last > start - _INSIDE)])
+
+    def _cut(self, edges: Float, axis: int, middle: float, start: float, end: float) -> Any:
+        """The box along the wall's line to the far sides of the polygon; None where something stops it."""
+        inside = chords(edges, axis, middle)
         mine = [(a, b) for a, b in inside if b - a > _EXACT and a < end + _INSIDE and b > start - _INSIDE]
         unseen = [
             (a, b) for a, b in mine for a, b in ((a, min(b, start)), (max(a, end), b)) if b - a > _EXACT
@@ -106,14 +111,3 @@ def _observed(plane: LayoutPlane, start: float, end: float) -> float:
     """Metres of a run that were really seen."""
     common = np.minimum(plane.observed[:, 1], end) - np.maximum(plane.observed[:, 0], start)
     return float(np.maximum(common, 0).sum())
-
-
-def _across(axis: int, middle: float, low: float, high: float) -> list[tuple[float, float]]:
-    ends = [(middle, low), (middle, high)]
-    return ends if axis == 0 else [(v, u) for u, v in ends]
-
-
-def _along(axis: int, line: Any) -> tuple[float, float]:
-    """The coordinates of a line's ends along itself, the lower first."""
-    a, b = shapely.get_coordinates(line)[[0, -1], 1 - axis]
-    return float(min(a, b)), float(max(a, b))

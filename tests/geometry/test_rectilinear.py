@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from floorplan_core.geometry.raster import edges_of
 from floorplan_core.geometry.rectilinear import (
+    chords,
     corners,
     map_polygon,
     move_sides,
@@ -45,12 +47,14 @@ def test_repeated_points_and_spikes_are_no_corners():
     assert len(corners(_ring([(0, 0), (4, 0), (2, 0)]))) == 0  # nothing is left of a line
 
 
-def test_sides_move_across_their_own_direction():
-    def target(a, b):
-        across = 0 if abs(a[0] - b[0]) < 1e-6 else 1
-        return a[across] + 0.1  # every side by 10 cm towards plus
+def _offsets(points: np.ndarray) -> np.ndarray:
+    """Where the sides of a ring are."""
+    after = np.roll(points, -1, axis=0)
+    return np.where(np.abs(points[:, 0] - after[:, 0]) < 1e-6, points[:, 0], points[:, 1])
 
-    moved = shapely.Polygon(move_sides(_ring(L_SHAPE), target))
+
+def test_sides_move_across_their_own_direction():
+    moved = shapely.Polygon(move_sides(_ring(L_SHAPE), lambda points: _offsets(points) + 0.1))
     assert shapely.equals(moved, shapely.Polygon(np.array(L_SHAPE) + 0.1))
 
 
@@ -58,13 +62,8 @@ def test_sides_move_across_their_own_direction():
 def test_moved_rings_stay_rectilinear_and_each_side_lies_where_it_was_sent(shift):
     ring = _ring(L_SHAPE)
     points = corners(ring)
-    wanted = []
-    for k in range(6):
-        a, b = points[k], points[(k + 1) % 6]
-        across = 0 if a[0] == b[0] else 1
-        wanted.append(a[across] + shift[k])
-    answers = iter(wanted)
-    moved = move_sides(ring, lambda a, b: next(answers))
+    wanted = _offsets(points) + shift
+    moved = move_sides(ring, lambda _: wanted)
     for k in range(6):
         across = 0 if points[k][0] == points[(k + 1) % 6][0] else 1
         assert moved[k][across] == moved[(k + 1) % 6][across] == wanted[k]
@@ -76,7 +75,7 @@ def test_rings_are_moved_with_the_inside_at_their_left():
 
     def move(ring):
         turns.append(shapely.LinearRing(ring).is_ccw)
-        return move_sides(ring, lambda a, b: a[0] if abs(a[0] - b[0]) < 1e-6 else a[1])
+        return move_sides(ring, _offsets)
 
     assert _same(map_polygon(room, move), room)
     assert turns == [True, False]
@@ -171,3 +170,13 @@ def test_opening_a_rectangle_gives_what_opening_any_polygon_gives() -> None:
 def test_a_narrow_rectangle_is_opened_away() -> None:
     assert open_polygon(shapely.box(0, 0, 0.5, 9), 0.6).is_empty
     assert open_polygon(shapely.box(0, 0, 0.7, 9), 0.6).area == pytest.approx(6.3)
+
+
+@given(st.floats(-0.5, 4.5), st.sampled_from([0, 1]))
+def test_chords_are_where_a_line_runs_inside(offset, axis):
+    room = shapely.Polygon(L_SHAPE).difference(shapely.box(0.2, 0.3, 0.7, 0.6))
+    ends = [(offset, -9.0), (offset, 9.0)] if axis == 0 else [(-9.0, offset), (9.0, offset)]
+    line = shapely.LineString(ends)
+    assume(not line.intersects(shapely.points(shapely.get_coordinates(room))).any())  # along no side
+    inside = sum(b - a for a, b in chords(edges_of(room), axis, offset))
+    assert inside == pytest.approx(line.intersection(room).length)

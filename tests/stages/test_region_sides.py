@@ -7,11 +7,17 @@ import pytest
 import shapely
 
 from floorplan_core.model import Facing, LayoutPlane, LayoutSegment
-from floorplan_core.stages.region_sides import WallSurfaces, _residual, sides_of
+from floorplan_core.stages.region_sides import WallSurfaces, sides_of
+from floorplan_core.stages.side_measures import residual_of
 
 
 def surface(offset: float, length: float, residual: float) -> list[float]:
-    return [offset, 0.0, length, residual]
+    return [offset, length, residual]
+
+
+def _residual(seen: np.ndarray, at: float) -> float:
+    """Of a side at ``at`` along which the surfaces were seen."""
+    return float(residual_of(np.column_stack([seen[:, 1], np.abs(seen[:, 0] - at), seen[:, 2]])))
 
 
 def test_one_surface_keeps_its_own_residual() -> None:
@@ -26,13 +32,15 @@ def test_a_side_off_its_surface_is_worse() -> None:
 def test_sampled_points_agree() -> None:
     rng = np.random.default_rng(7)
     seen = np.array([surface(0.0, 4.0, 0.02), surface(0.015, 2.0, 0.01), surface(0.1, 0.5, 0.03)])
-    n = (40_000 * seen[:, 2]).astype(int)
-    points = np.concatenate([rng.normal(o, r / 1.96, k) for (o, _, _, r), k in zip(seen, n, strict=True)])
+    n = (40_000 * seen[:, 1]).astype(int)
+    points = np.concatenate([rng.normal(o, r / 1.96, k) for (o, _, r), k in zip(seen, n, strict=True)])
     assert _residual(seen, 0.005) == pytest.approx(np.percentile(np.abs(points - 0.005), 95), abs=5e-4)
 
 
 def test_nothing_seen_has_no_residual() -> None:
-    assert _residual(np.zeros((0, 4)), 1.0) is None
+    assert np.isnan(_residual(np.zeros((0, 3)), 1.0))
+    room = shapely.orient_polygons(shapely.box(0, 0, 8, 2))
+    assert all(s.residual is None for s in sides_of(room, WallSurfaces([], []), ()))
 
 
 def test_a_pane_behind_a_side_counts_as_seen_but_does_not_move_it() -> None:
