@@ -8,7 +8,6 @@ whatever rotation and rounding follow.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -29,13 +28,8 @@ def matched(polygons: Sequence[Any]) -> list[Any]:
     return [_rebuild(p, lambda ring: _insert(ring, vertices)) for p in shapely.orient_polygons(merged)]
 
 
-def rounded(polygon: Any, transform: Callable[[Float], Float], decimals: int) -> Any:
-    """``polygon`` after ``transform`` ((N, 2) to (N, 2)), rounded, without repeated vertices."""
-    return _rebuild(polygon, lambda ring: _without_repeats(np.round(transform(ring), decimals)))
-
-
-def all_rounded(polygons: Sequence[Any], transform: Callable[[Float], Float], decimals: int) -> list[Any]:
-    """:func:`rounded` for many polygons in one pass."""
+def rounded(polygons: Sequence[Any], transform: Callable[[Float], Float], decimals: int) -> list[Any]:
+    """The polygons after ``transform`` ((N, 2) to (N, 2)), rounded, without repeated vertices."""
     moved = shapely.transform(
         np.array(polygons, dtype=object), lambda points: np.round(transform(points), decimals)
     )
@@ -79,20 +73,16 @@ def _rebuild(polygon: Any, change: Callable[[Float], Float]) -> Any:
 
 def _insert(ring: Float, vertices: Float) -> Float:
     """The ring with all ``vertices`` that lie inside its edges, in order."""
+    edge = np.diff(ring, axis=0)
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    starts, edge, length = ring[:-1][length > 0], edge[length > 0], length[length > 0, None]
+    away = vertices - starts[:, None]  # (edges, vertices, 2)
+    along = (away[..., 0] * edge[:, :1] + away[..., 1] * edge[:, 1:]) / length
+    across = (away[..., 1] * edge[:, :1] - away[..., 0] * edge[:, 1:]) / length
+    on = (np.abs(across) < MERGE / 1000) & (along > MERGE / 2) & (along < length - MERGE / 2)
     parts = []
-    for a, b in itertools.pairwise(ring):
-        edge = b - a
-        length = float(np.hypot(*edge))
-        if length == 0:
-            continue
-        along = (vertices - a) @ edge / length
-        across = (vertices - a) @ np.array([-edge[1], edge[0]]) / length
-        on = (np.abs(across) < MERGE / 1000) & (along > MERGE / 2) & (along < length - MERGE / 2)
-        parts += [a[None], vertices[on][np.argsort(along[on])]]
+    for k in range(len(starts)):
+        parts.append(starts[k : k + 1])
+        if on[k].any():
+            parts.append(vertices[on[k]][np.argsort(along[k, on[k]])])
     return np.vstack([*parts, ring[:1]])
-
-
-def _without_repeats(ring: Float) -> Float:
-    keep = np.ones(len(ring), dtype=bool)
-    keep[1:] = np.any(ring[1:] != ring[:-1], axis=1)
-    return ring[keep]

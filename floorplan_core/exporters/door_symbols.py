@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -29,6 +30,9 @@ DOUBLE = 1.15  # metres: wider doors get two leaves
 APART = 0.1  # metres between the swings of two doors, where there is a choice
 REACH = 0.1  # metres behind the face where the region that a door opens into is looked for
 
+_TURN = np.linspace(0, np.pi / 2, ARC_STEPS)[:, None]
+_COS, _SIN = np.cos(_TURN), np.sin(_TURN)
+
 
 @dataclass(frozen=True)
 class Leaf:
@@ -43,14 +47,13 @@ class Leaf:
         """True where the leaf does not stand open."""
         return bool(np.array_equal(self.tip, self.closed))
 
-    @property
+    @cached_property
     def sector(self) -> Any:
         """The floor that it sweeps, a shapely Polygon; empty where it is shut."""
         if self.shut:
             return shapely.Polygon()
         u, v = self.tip - self.hinge, self.closed - self.hinge
-        t = np.linspace(0, np.pi / 2, ARC_STEPS)[:, None]
-        return shapely.Polygon(np.vstack([self.hinge[None], self.hinge + np.cos(t) * u + np.sin(t) * v]))
+        return shapely.Polygon(np.vstack([self.hinge[None], self.hinge + _COS * u + _SIN * v]))
 
 
 def swings(openings: Sequence[Opening], regions: Sequence[Region]) -> list[tuple[Leaf, ...]]:
@@ -73,6 +76,7 @@ def leaves(opening: Opening, regions: Sequence[Region], swept: Sequence[Any] = (
         return _shut(opening)
     options: list[tuple[tuple[bool, bool, float], int, tuple[Leaf, ...], Region | None]] = []
     polygons = np.array([r.polygon for r in regions], dtype=object)
+    shapely.prepare(polygons)
     for direction in (-1, 1):
         inside = np.flatnonzero(shapely.contains_xy(polygons, *_beyond(opening, direction)))
         region = regions[int(inside[0])] if len(inside) else None
@@ -110,7 +114,10 @@ def _clear(made: tuple[Leaf, ...], region: Region | None) -> bool:
     if region is None:
         return False
     sectors = [leaf.sector for leaf in made]
-    return all(region.polygon.intersection(s).area >= CLEAR * s.area for s in sectors)
+    return all(
+        shapely.contains(region.polygon, s) or region.polygon.intersection(s).area >= CLEAR * s.area
+        for s in sectors
+    )
 
 
 def _to_corner(opening: Opening, region: Region, hinge: str) -> float:

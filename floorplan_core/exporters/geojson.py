@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorplan_core.exporters.coverage import all_rounded, matched, rounded
+from floorplan_core.exporters.coverage import matched, rounded
 from floorplan_core.model import (
     Door,
     FloorPlan,
@@ -33,6 +33,7 @@ Json = dict[str, Any]
 
 DECIMALS = 4  # metres: 0.1 mm
 MATRIX_DECIMALS = 12
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 INSET = 2e-4  # metres: predicted space keeps this far inside its region, more than rounding can move it
 
 
@@ -59,7 +60,7 @@ def geojson_text(plan: FloorPlan) -> str:
 def plan_to_geojson(plan: FloorPlan) -> Json:
     """The plan as a FeatureCollection of plain Python values."""
     polygons = matched([r.polygon for r in plan.regions]) if plan.regions else []
-    features = [_region(plan, r, p) for r, p in zip(plan.regions, polygons, strict=True)]
+    features = _regions(plan, polygons)
     features += [_door(plan, door) for door in plan.doors]
     planes = [plane for plane in plan.planes if plane.by_hand != "hidden"]
     extent = plan_extent(plan)
@@ -74,7 +75,7 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
 
 
 def _dump(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    return _ENCODER.encode(value)
 
 
 def _head(plan: FloorPlan) -> Json:
@@ -104,7 +105,18 @@ def _wing_head(plan: FloorPlan, wing: Wing) -> Json:
     }
 
 
-def _region(plan: FloorPlan, region: Region, polygon: Any) -> Json:
+def _regions(plan: FloorPlan, polygons: list[Any]) -> list[Json]:
+    """The regions with their outlines and sides, all of whose points are placed at once."""
+    outlines = _rings(rounded(polygons, plan.to_world, DECIMALS)) if polygons else []
+    sides = [side for region in plan.regions for side in region.sides]
+    ends = iter(_points(plan, np.array([(side.start, side.end) for side in sides]).reshape(-1, 2)))
+    return [
+        _region(region, outline, [_side(side, [next(ends), next(ends)]) for side in region.sides])
+        for region, outline in zip(plan.regions, outlines, strict=True)
+    ]
+
+
+def _region(region: Region, outline: list[list[list[float]]], sides: list[Json]) -> Json:
     properties = {
         "kind": "region",
         "name": region.name,
@@ -118,16 +130,16 @@ def _region(plan: FloorPlan, region: Region, polygon: Any) -> Json:
         "speculated_sides": sum(side.speculated for side in region.sides),
         "doors": list(region.doors),
         "confidence": _metres(region.confidence),
-        "sides": [_side(plan, side) for side in region.sides],
+        "sides": sides,
     }
     properties |= {} if region.height is None else {"height_m": _metres(region.height)}
     properties |= _corrected(region)
-    return _feature(region.id, _polygon(plan, polygon), properties)
+    return _feature(region.id, {"type": "Polygon", "coordinates": outline}, properties)
 
 
-def _side(plan: FloorPlan, side: RegionSide) -> Json:
+def _side(side: RegionSide, ends: list[list[float]]) -> Json:
     return {
-        "from_to": _points(plan, np.array([side.start, side.end])),
+        "from_to": ends,
         "length_m": _metres(side.length),
         "plane": side.plane,
         "observed": _metres(side.observed),
@@ -213,21 +225,23 @@ def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
     """Predicted space, clipped to just inside the regions, so that no rounding lets it out."""
     inside = shapely.union_all(shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre"))
     clipped = _only_polygons(shapely.intersection(plan.speculated(), inside))
-    moved = all_rounded([p for p in clipped if p.area > INSET], plan.to_world, DECIMALS)
+    area = shapely.area(clipped)
+    moved = rounded(clipped[area > INSET], plan.to_world, DECIMALS)
     whole = shapely.is_valid(np.array(moved, dtype=object)).tolist()
     valid = [
         q
         for p, fine in zip(moved, whole, strict=True)
-        for q in ([p] if fine else _only_polygons(shapely.make_valid(p)))
+        for q in ([p] if fine else _only_polygons(shapely.make_valid(p)).tolist())
     ]
-    properties = {"kind": "speculated", "area_m2": _metres(sum(p.area for p in clipped))}
-    coordinates = _all_rings(valid)
+    properties = {"kind": "speculated", "area_m2": _metres(sum(area.tolist()))}
+    coordinates = _rings(valid)
     return _feature("speculated", {"type": "MultiPolygon", "coordinates": coordinates}, properties)
 
 
-def _only_polygons(geometry: Any) -> list[Any]:
+def _only_polygons(geometry: Any) -> NDArray[np.object_]:
     """The polygons of a geometry; points and lines, left over by clipping, are dropped."""
-    return [p for p in shapely.get_parts(geometry) if p.geom_type == "Polygon"]
+    parts = shapely.get_parts(geometry)
+    return np.asarray(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
 
 
 def plan_extent(plan: FloorPlan) -> tuple[float, float, float, float]:
@@ -242,17 +256,8 @@ def _feature(ident: str, geometry: Json, properties: Json) -> Json:
     return {"type": "Feature", "id": ident, "geometry": geometry, "properties": properties}
 
 
-def _polygon(plan: FloorPlan, polygon: Any) -> Json:
-    return {"type": "Polygon", "coordinates": _rings(rounded(polygon, plan.to_world, DECIMALS))}
-
-
-def _rings(polygon: Any) -> list[list[list[float]]]:
-    """GeoJSON rings of a polygon that is already rounded: counter-clockwise shell, clockwise holes."""
-    return _all_rings([polygon])[0]
-
-
-def _all_rings(polygons: list[Any]) -> list[list[list[list[float]]]]:
-    """The rings of each of many polygons."""
+def _rings(polygons: list[Any]) -> list[list[list[list[float]]]]:
+    """GeoJSON rings of polygons that are already rounded: counter-clockwise shells, clockwise holes."""
     oriented = shapely.orient_polygons(np.array(polygons, dtype=object))
     rings, owner = shapely.get_rings(oriented, return_index=True)
     points = _clean(shapely.get_coordinates(rings), DECIMALS).tolist()

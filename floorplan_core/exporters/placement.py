@@ -25,6 +25,7 @@ LEVEL, TURNED = (1.0, 0.87, 0.76), (1.0, 0.82)  # sizes to try: level text shrin
 BOLD = 1.1  # width of the bold name over that of the regular face
 NEAREST = 64  # spots of which those with much room around come first
 CENTRED = 2.0  # how much farther from the centroid a spot may lie for its distance from the walls
+AT_ONCE = 16  # spots that are tried together: the first that fits is taken
 GRID = 13  # candidate spots per side of the region's bounds
 
 
@@ -87,11 +88,17 @@ def _try(lines: tuple[Line, ...], free: Any, spots: Float, pad: float, turned: b
     width, height = block_size(lines)
     half = np.array([height, width] if turned else [width, height]) / 2 + pad
     low, high = spots - half, spots + half
-    fits = shapely.contains_properly(free, shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-    if not fits.any():
-        return None
-    x, y = spots[int(np.argmax(fits))].tolist()
-    return Placed(lines, x, y, turned, True)
+    x0, y0, x1, y1 = free.bounds
+    within = (low[:, 0] > x0) & (low[:, 1] > y0) & (high[:, 0] < x1) & (high[:, 1] < y1)
+    likely = np.flatnonzero(within)
+    for first in range(0, len(likely), AT_ONCE):
+        rows = likely[first : first + AT_ONCE]
+        (a, b), (c, d) = low[rows].T, high[rows].T
+        fits = shapely.contains_properly(free, shapely.box(a, b, c, d))
+        if fits.any():
+            x, y = spots[rows[int(np.argmax(fits))]].tolist()
+            return Placed(lines, x, y, turned, True)
+    return None
 
 
 def _spots(free: Any, floor: Any, home: Float) -> Float:

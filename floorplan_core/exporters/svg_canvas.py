@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
-
-Float = NDArray[np.float64]
 
 FONT = "Inter, 'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 # Widths in em, of the widest face in the font stack, so that text fits whichever face is there.
@@ -26,7 +24,12 @@ def number(value: float) -> str:
 
 def text_width(text: str, size: float) -> float:
     """Estimated width of ``text`` in the unit of ``size``; never less than it takes in a usual sans face."""
-    return size * sum(_em(c) for c in text)
+    return size * _ems(text)
+
+
+@lru_cache(maxsize=4096)  # the size at which a text fits is looked for again and again
+def _ems(text: str) -> float:
+    return sum(_em(c) for c in text)
 
 
 def _em(c: str) -> float:
@@ -56,22 +59,32 @@ def attributes(values: dict[str, Any]) -> str:
     for name, value in values.items():
         if value is None:
             continue
-        shown = f'"{number(value)}"' if isinstance(value, int | float) else quoteattr(printable(str(value)))
-        parts.append(f" {name.replace('_', '-')}={shown}")
+        if isinstance(value, int | float):
+            parts.append(f' {_hyphened(name)}="{number(value)}"')
+        else:
+            parts.append(f" {_hyphened(name)}={_quoted(str(value))}")
     return "".join(parts)
+
+
+@lru_cache(maxsize=256)
+def _hyphened(name: str) -> str:
+    return name.replace("_", "-")
+
+
+@lru_cache(maxsize=1024)  # mostly colours and ways to draw, the same few for all elements
+def _quoted(value: str) -> str:
+    return quoteattr(printable(value))
 
 
 def polygon_path(geometry: Any) -> str:
     """Path data of a shapely Polygon or MultiPolygon already in page coordinates."""
-    rings = []
-    for part in shapely.get_parts(geometry):
-        if part.geom_type == "Polygon" and not part.is_empty:
-            rings += [part.exterior, *part.interiors]
-    return "".join(_ring_path(shapely.get_coordinates(ring)[:-1]) for ring in rings)
-
-
-def _ring_path(points: Float) -> str:
-    return "M" + "L".join(f"{number(x)},{number(y)}" for x, y in points.tolist()) + "Z"
+    points, ring = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(geometry)), return_index=True)
+    ends = np.flatnonzero(np.diff(ring, append=-1)).tolist()  # the last point of a ring is its first
+    texts = [f"{number(x)},{number(y)}" for x, y in points.tolist()]
+    return "".join(
+        "M" + "L".join(texts[start:end]) + "Z"
+        for start, end in zip([0, *(e + 1 for e in ends)], ends, strict=False)
+    )
 
 
 class SvgCanvas:

@@ -113,7 +113,7 @@ def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
         return replace(_cut(solid, door, thickness, thickest), door=turned)
     reach = _box(door.axis, door.offset - thickest, door.offset + thickest, door.start, door.end)
     line = shapely.LineString(door.line())
-    parts = [p for p in shapely.get_parts(solid.intersection(reach)) if p.area > 0]
+    parts = [p for p in shapely.get_parts(shapely.clip_by_rect(solid, *reach.bounds)) if p.area > 0]
     parts.sort(key=lambda p: (round(p.distance(line), 3), p.bounds))
     beside = [p for p in parts if p.distance(line) <= door.thickness / 2 + PROBE]
     near = beside or [p for p in parts[:1] if p.distance(line) <= door.thickness / 2 + NEAR]

@@ -19,6 +19,9 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 Bool = NDArray[np.bool_]
 
+# Kinds of corners; modulo 3 the number of rings that turn there.
+_SINGLE, _WEST_SOUTH, _WEST_NORTH = 1, 2, 5
+
 
 def polygon_mask(polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]) -> Bool:
     """(ny, nx) True where the centre of a cell lies inside ``polygon`` (shapely, metres), holes left out."""
@@ -88,68 +91,80 @@ def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
         return shapely.MultiPolygon()
     from floorplan_core.geometry.masks import label_patches
 
-    labels = np.pad(label_patches(mask)[0], 1)
-    ix, iy, left_is_north = _corners(labels)
-    walks = _rings(ix, iy, left_is_north)
-    order, ring = np.concatenate(walks), np.repeat(np.arange(len(walks)), [len(walk) for walk in walks])
-    points = np.column_stack([ix[order], iy[order]]) * cell + origin
-    ends = np.array([walk[:2] for walk in walks])
-    homes = _homes(labels, ix[ends].min(axis=1), iy[ends[:, 0]])
-    return shapely.MultiPolygon(_assemble(shapely.linearrings(points, indices=ring), homes))
+    corners, first, homes = _trace(np.pad(label_patches(mask)[0], 1))
+    ring = np.repeat(np.arange(len(homes)), np.diff(first))
+    return shapely.multipolygons(_assemble(shapely.linearrings(corners * cell + origin, indices=ring), homes))
 
 
-def _corners(labels: NDArray[np.int32]) -> tuple[Int, Int, Bool]:
-    """Lattice corners of the boundary: x, y, and whether the edge to the west joins the one to the north.
+@njit(cache=True, nogil=True)
+def _trace(labels):  # type: ignore[no-untyped-def]
+    """Walk around the patches of ``labels``, which have a rim of zeros.
 
     Where two cells touch at a corner only, the corner is listed twice, once for each of the two rings
     that meet there. Cells of one patch are joined across it, of two kept apart: every ring is simple.
+
+    :return: (C, 2) lattice corners x, y, ring by ring; (R + 1,) where each begins; (R,) the patch it bounds.
     """
-    sw, se, nw, ne = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
-    filled = (sw > 0).astype(np.int8) + (se > 0) + (nw > 0) + (ne > 0)
-    rising = (filled == 2) & (sw > 0) & (ne > 0)
-    falling = (filled == 2) & (nw > 0) & (se > 0)
-    west_north = (rising & (sw == ne)) | (falling & (nw != se))
-    times = ((filled == 1) | (filled == 3)) + 2 * (rising | falling)
-    iy, ix = np.nonzero(times)
-    count = times[iy, ix]
-    return np.repeat(ix, count), np.repeat(iy, count), np.repeat(west_north[iy, ix], count)
+    x, y, above = _pair_up(labels)  # in a row corners pair up from the left: the next, or the one before
+    corners, first = np.empty((len(x), 2)), np.zeros(len(x) // 4 + 1, dtype=np.int64)
+    homes, done = np.empty(len(x) // 4, dtype=np.int64), np.zeros(len(x), dtype=np.bool_)
+    rings, count = 0, 0
+    for start in range(len(x)):
+        if done[start]:
+            continue
+        left, row = min(x[start], x[start ^ 1]), y[start]  # its first edge: one cell beside it is filled
+        homes[rings] = max(labels[row, left + 1], labels[row + 1, left + 1])
+        at = start
+        while not done[at]:
+            for k in (at, at ^ 1):
+                done[k] = True
+                corners[count, 0], corners[count, 1] = x[k], y[k]
+                count += 1
+            at = above[at ^ 1]
+        rings += 1
+        first[rings] = count
+    return corners, first[: rings + 1], homes[:rings]
 
 
-def _rings(ix: Int, iy: Int, west_north: Bool) -> list[Int]:
-    """Closed walks over the corners: in a row they pair up from the left, in a column from below."""
-    n = len(ix)
-    second = np.zeros(n, dtype=bool)  # the copy of a double corner that owns the edge to the east
-    second[1:] = (ix[1:] == ix[:-1]) & (iy[1:] == iy[:-1])
-    across = np.lexsort((second, ix, iy))
-    upright = np.lexsort((second ^ west_north, iy, ix))
-    beside, above = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-    for partner, order in ((beside, across), (above, upright)):
-        partner[order[0::2]], partner[order[1::2]] = order[1::2], order[0::2]
-    return _walk(beside.tolist(), above.tolist())
+@njit(cache=True, nogil=True)
+def _pair_up(labels):  # type: ignore[no-untyped-def]
+    """Corners of the boundary in row order, and the partner of each in its column, paired up from below."""
+    ny, nx = labels.shape[0] - 1, labels.shape[1] - 1
+    count = 0
+    for j in range(ny):
+        for i in range(nx):
+            count += _corner_kind(labels, i, j) % 3
+    x, y = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
+    above, open_ = np.empty(count, dtype=np.int64), np.full(nx, -1)
+    c = 0
+    for j in range(ny):
+        for i in range(nx):
+            kind = _corner_kind(labels, i, j)
+            for k in range(kind % 3):
+                # Of a double corner the first copy owns the edge to the west, the second that to the east.
+                at = c + (1 - k if kind == _WEST_NORTH else k)
+                x[at], y[at] = i, j
+                if open_[i] < 0:
+                    open_[i] = at
+                else:
+                    above[at], above[open_[i]] = open_[i], at
+                    open_[i] = -1
+            c += kind % 3
+    return x, y, above
 
 
-def _walk(beside: list[int], above: list[int]) -> list[Int]:
-    """Follow horizontal and vertical edges in turn until each ring closes."""
-    left = [True] * len(beside)
-    rings = []
-    for start in range(len(beside)):
-        ring, at = [], start
-        while left[at]:
-            other = beside[at]
-            left[at] = left[other] = False
-            ring += [at, other]
-            at = above[other]
-        if ring:
-            rings.append(np.array(ring))
-    return rings
-
-
-def _homes(labels: NDArray[np.int32], x: Int, y: Int) -> Int:
-    """(R,) the patch that each ring bounds: of the two cells beside its first edge along x, the filled one.
-
-    :param x, y: (R,) the left end of that edge.
-    """
-    return np.maximum(labels[y, x + 1], labels[y + 1, x + 1]).astype(np.int64)
+@njit(cache=True, nogil=True)
+def _corner_kind(labels, i, j):  # type: ignore[no-untyped-def]
+    """0: no corner; 1: one; else two cells touch there: their rings turn from west to south, or to north."""
+    sw, se, nw, ne = labels[j, i] > 0, labels[j, i + 1] > 0, labels[j + 1, i] > 0, labels[j + 1, i + 1] > 0
+    filled = int(sw) + int(se) + int(nw) + int(ne)
+    if filled % 2:
+        return _SINGLE
+    if filled != 2 or sw in (se, nw):
+        return 0
+    if sw:
+        return _WEST_NORTH if labels[j, i] == labels[j + 1, i + 1] else _WEST_SOUTH
+    return _WEST_SOUTH if labels[j + 1, i] == labels[j, i + 1] else _WEST_NORTH
 
 
 def _assemble(rings: NDArray[np.object_], homes: Int) -> NDArray[np.object_]:

@@ -186,9 +186,7 @@ def test_touching_regions_stay_a_coverage_after_rounding(
     strips = [shapely.box(a, split + nudge, b, 6.0) for a, b in itertools.pairwise(xs) if b - a > 0.01]
     c, s = np.cos(yaw), np.sin(yaw)
     turn = np.array([[c, s], [-s, c]])
-    done = [
-        rounded(p, lambda xy: xy @ turn + 12345.678, 4)
-        for p in matched([shapely.box(0, 0, 10, split), *strips])
-    ]
+    whole = matched([shapely.box(0, 0, 10, split), *strips])
+    done = rounded(whole, lambda xy: xy @ turn + 12345.678, 4)
     assert all(p.is_valid for p in done)
     assert shapely.coverage_is_valid(done)
