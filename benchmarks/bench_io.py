@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -212,15 +212,27 @@ def row(found: dict[str, Any]) -> str:
     )
 
 
+def is_one(arguments: list[str], measure: Callable[[Path, str], dict[str, float]]) -> bool:
+    """Whether this is the process of one measurement (``run_apart``), whose figures it then tells."""
+    if arguments[:1] != ["--one"]:
+        return False
+    print(json.dumps(measure(Path(arguments[2]), arguments[1])))
+    return True
+
+
+def parser_of(program: str, points: int, formats: Sequence[str]) -> argparse.ArgumentParser:
+    """The command line: how many points, which formats."""
+    parser = argparse.ArgumentParser(prog=f"python -m benchmarks.{program}")
+    parser.add_argument("--points", type=lambda text: int(float(text)), default=points)
+    parser.add_argument("formats", nargs="*", choices=[*formats, []])
+    return parser
+
+
 def main(arguments: list[str]) -> int:
     """The table; 2 for wrong use."""
-    if arguments[:1] == ["--one"]:
-        print(json.dumps(measure(Path(arguments[2]), arguments[1])))
+    if is_one(arguments, measure):
         return 0
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.bench_io")
-    parser.add_argument("--points", type=int, default=20_000_000)
-    parser.add_argument("formats", nargs="*", choices=[*FORMATS, []])
-    given = parser.parse_args(arguments)
+    given = parser_of("bench_io", 20_000_000, FORMATS).parse_args(arguments)
     print(
         "       points      file   plain reading: CPU, rate, memory    opened and planned: CPU, rate, memory"
     )

@@ -16,7 +16,6 @@ figures of 1000 million points. What the plan is worth is measured against the s
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import resource
@@ -32,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.bench_io import SMALL, plain
+from benchmarks.bench_io import SMALL, is_one, parser_of, plain
 from benchmarks.record import RESULTS, Outcome
 from benchmarks.record import report as keep
 
@@ -352,16 +351,13 @@ def further_surfels(count: int, area: float) -> float:
 
 def main(arguments: list[str]) -> int:
     """The tables; 2 for wrong use."""
-    if arguments[:1] == ["--one"]:
-        print(json.dumps(measure(Path(arguments[2]), arguments[1])))
+    if is_one(arguments, measure):
         return 0
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.big")
-    parser.add_argument("--points", type=float, default=1e8)
+    parser = parser_of("big", 10**8, FORMATS)
     parser.add_argument("--keep", type=Path, help="folder that keeps the clouds for the next time")
     parser.add_argument("--dense", action="store_true", help="only: voxels filled at growing densities")
-    parser.add_argument("formats", nargs="*", choices=[*FORMATS, []])
     given = parser.parse_args(arguments)
-    count = int(given.points)
+    count = given.points
     print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores", flush=True)
     if given.dense:
         keep("big_dense", saturation([count // 100, count // 30, count // 10, count // 3, count]))

@@ -6,6 +6,7 @@ Needs ``ifcopenshell``, an optional dependency (LGPL, used as it comes). The res
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,8 +52,11 @@ def _open(path: Path) -> Any:
     try:
         import ifcopenshell
     except ImportError:
+        needs = f"Reading the IFC model {path.name} needs"
         raise InputError(
-            f"Reading the model {path.name} needs the package ifcopenshell: pip install 'floorcast[ifc]'."
+            f"{needs} the Python version of Floorcast, not this program: pip install 'floorcast[ifc]'."
+            if getattr(sys, "frozen", False)
+            else f"{needs} the package ifcopenshell: pip install 'floorcast[ifc]'."
         ) from None
     try:
         return ifcopenshell.open(str(path))

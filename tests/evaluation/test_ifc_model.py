@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -30,6 +31,17 @@ def test_spaces_doors_and_windows_are_those_of_the_model(tmp_path, yaw, prefix):
     assert door.width == pytest.approx(DOOR[2], abs=1e-5)  # that of the model, not of the frame
     assert door.joins == (0, 1) and door.required
     assert [d.kind for d in truth.doors].count("window") == 1
+
+
+@pytest.mark.parametrize(
+    ("frozen", "says"), [(False, "ifcopenshell"), (True, "the Python version of Floorcast")]
+)
+def test_without_the_package_a_sentence_says_how_to_get_it(tmp_path, monkeypatch, frozen, says):
+    path = write_house(tmp_path / "house.ifc")
+    monkeypatch.setitem(sys.modules, "ifcopenshell", None)
+    monkeypatch.setattr(sys, "frozen", frozen, raising=False)
+    with pytest.raises(InputError, match=rf"house\.ifc.*{says}.*pip install 'floorcast\[ifc\]'"):
+        load_truth(path)
 
 
 def test_another_storey_can_be_chosen_and_one_too_many_is_said(tmp_path):

@@ -10,6 +10,7 @@ import pytest
 from pye57 import libe57
 from scipy.spatial.transform import Rotation
 
+from tests.plugins.e57_files import write_fields
 from tests.plugins.plugin_files import opened, refusal, survives, whole
 from tests.readers.reader_clouds import room
 
@@ -41,41 +42,22 @@ def write_e57(path, parts, shift=(0.0, 0.0, 0.0), posed=True):
 
 
 def write_spherical(path, points, invalid=None):
-    """A scan of ranges and angles as scaled integers and doubles, by the library's lowest level."""
-    imf = libe57.ImageFile(str(path), "w")
-    imf.extensionsAdd("", libe57.E57_V1_0_URI)
-    root = imf.root()
-    root.set("formatName", libe57.StringNode(imf, "ASTM E57 3D Imaging Data File"))
-    root.set("guid", libe57.StringNode(imf, "{x}"))
-    root.set("versionMajor", libe57.IntegerNode(imf, 1))
-    root.set("versionMinor", libe57.IntegerNode(imf, 0))
-    data = libe57.VectorNode(imf, True)
-    root.set("data3D", data)
-    scan = libe57.StructureNode(imf)
-    scan.set("guid", libe57.StringNode(imf, "{y}"))
-    prototype = libe57.StructureNode(imf)
+    """A scan of ranges and angles as scaled integers and doubles."""
     r = np.linalg.norm(points, axis=1)
-    values = {
-        "sphericalRange": np.round(r / 1e-4) * 1e-4,
-        "sphericalAzimuth": np.arctan2(points[:, 1], points[:, 0]),
-        "sphericalElevation": np.arcsin(points[:, 2] / r),
-        "sphericalInvalidState": (np.zeros(len(points)) if invalid is None else invalid).astype("i1"),
-    }
-    prototype.set("sphericalRange", libe57.ScaledIntegerNode(imf, 0, 0, 10**6, 1e-4, 0.0))
-    prototype.set("sphericalAzimuth", libe57.FloatNode(imf, 0.0))
-    prototype.set("sphericalElevation", libe57.FloatNode(imf, 0.0))
-    prototype.set("sphericalInvalidState", libe57.IntegerNode(imf, 0, 0, 2))
-    node = libe57.CompressedVectorNode(imf, prototype, libe57.VectorNode(imf, True))
-    scan.set("points", node)
-    data.append(scan)
-    buffers = libe57.VectorSourceDestBuffer()
-    for name, column in values.items():
-        buffers.append(libe57.SourceDestBuffer(imf, name, column, len(points), True, True))
-    writer = node.writer(buffers)
-    writer.write(len(points))
-    writer.close()
-    imf.close()
-    return path
+    good = (np.zeros(len(points)) if invalid is None else invalid).astype("i1")
+    x, y, z = points.T
+    return write_fields(
+        path,
+        {
+            "sphericalRange": (
+                lambda f: libe57.ScaledIntegerNode(f, 0, 0, 10**6, 1e-4, 0.0),
+                np.round(r / 1e-4) * 1e-4,
+            ),
+            "sphericalAzimuth": (lambda f: libe57.FloatNode(f, 0.0), np.arctan2(y, x)),
+            "sphericalElevation": (lambda f: libe57.FloatNode(f, 0.0), np.arcsin(z / r)),
+            "sphericalInvalidState": (lambda f: libe57.IntegerNode(f, 0, 0, 2), good),
+        },
+    )
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ from floorcast_plugins._e57_scans import (
     opened_image,
     read_scan,
 )
+from tests.plugins.e57_files import write_fields
 from tests.plugins.plugin_files import refusal
 
 MOST = 1 << 53  # up to which doubles are exact
@@ -28,34 +29,6 @@ def integers(rng, bits):
     high = low + (1 << bits) - 1
     values = rng.integers(max(low, -MOST), min(high, MOST), COUNT, endpoint=True)
     return low, high, values.astype(np.float64)  # what libE57's binding takes 64 bits as
-
-
-def write(path, fields):
-    """One scan; ``fields`` maps names to (node of the prototype, column)."""
-    imf = libe57.ImageFile(str(path), "w")
-    imf.extensionsAdd("", libe57.E57_V1_0_URI)
-    root = imf.root()
-    root.set("formatName", libe57.StringNode(imf, "ASTM E57 3D Imaging Data File"))
-    root.set("guid", libe57.StringNode(imf, "{x}"))
-    root.set("versionMajor", libe57.IntegerNode(imf, 1))
-    root.set("versionMinor", libe57.IntegerNode(imf, 0))
-    data = libe57.VectorNode(imf, True)
-    root.set("data3D", data)
-    scan = libe57.StructureNode(imf)
-    scan.set("guid", libe57.StringNode(imf, "{y}"))
-    prototype = libe57.StructureNode(imf)
-    buffers = libe57.VectorSourceDestBuffer()
-    for name, (make, column) in fields.items():
-        prototype.set(name, make(imf))
-        buffers.append(libe57.SourceDestBuffer(imf, name, column, len(column), True, True))
-    node = libe57.CompressedVectorNode(imf, prototype, libe57.VectorNode(imf, True))
-    scan.set("points", node)
-    data.append(scan)
-    writer = node.writer(buffers)
-    writer.write(COUNT)
-    writer.close()
-    imf.close()
-    return path
 
 
 def scan_of(path):
@@ -79,7 +52,7 @@ def test_integers_of_any_width(tmp_path, bits):
     rng = np.random.default_rng(bits)
     low, high, values = integers(rng, bits)
     scaled = np.linspace(-50, 50, COUNT)
-    path = write(
+    path = write_fields(
         tmp_path / "a.e57",
         {
             "cartesianX": (lambda f: libe57.ScaledIntegerNode(f, 0, -(10**6), 10**6, 1e-4, 0.25), scaled),

@@ -200,6 +200,15 @@ def test_depth_lists_stay_in_their_folder(tmp_path):
     assert "Line 1 of depth.txt" in refusal(root)
 
 
+def test_damaged_images_are_told_once(tmp_path, capfd):
+    root = write_scannet(tmp_path / "run")
+    good = (root / "depth" / "3.png").read_bytes()
+    for bad in (good[: len(good) // 2], good[:60] + bytes([good[60] ^ 1]) + good[61:]):
+        (root / "depth" / "3.png").write_bytes(bad)
+        assert "is damaged" in refusal(root)
+    assert capfd.readouterr().err == ""  # the library that decodes would say so, too
+
+
 def test_damaged_images_and_texts(tmp_path):
     """Every file of the folder in turn, cut and changed."""
     from tests.plugins.plugin_files import damages
