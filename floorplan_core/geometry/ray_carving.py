@@ -2,9 +2,9 @@
 
 Voxels are held in blocks of 16 x 16 x 16, found through a hash. A ray is sampled once a voxel along its
 longest axis (a 3-D Bresenham line): no branch depends on the data, and walls are grazed less than by
-visiting every voxel that it clips. All places of a ray are computed first, many in one instruction; a
-:class:`_Window` over what was seen so far, a plain array, then gives the block of each. Counting is
-order-free.
+visiting every voxel that it clips. The places of many rays are computed first, eight in one instruction, and
+queued; a :class:`_Window` over what was seen so far, a plain array, then gives the block of each. Counting
+is order-free.
 """
 
 from __future__ import annotations
@@ -29,9 +29,14 @@ _MOST = np.uint8(MOST)
 SHIFT = 24  # rays are followed in fixed point: 24 bits of fraction of a voxel
 BLOCK_SHIFT = SHIFT + 4
 ONE = float(1 << SHIFT)
-_TOGETHER = 16  # places computed in one go: a ray is rounded up to so many
-_LENGTH = 512  # places of a ray that are kept at a time
-_LARGEST = 1 << 22  # blocks of a window: 1600 x 800 x 13 m. What lies beyond is looked up in the hash
+_TOGETHER = 32  # places computed in one go: what is more than a ray has is overwritten by the next
+_PART = 96  # steps of a ray that are queued at a time: with 7 blocks each way they fit 32 bits
+_QUEUE = 4096  # places that wait to be counted: 16 kB, within the first-level cache
+_MIDDLE = 8  # block of 16 that a part begins in, in the 32-bit words of its places
+_VOXEL_BITS = 12  # of a place, below those of its cell of the window
+_WINDOW_BITS = 20  # a cell and a voxel fit 32 bits (800 x 800 x 6 m); beyond it the hash is asked
+_LOW = (1 << BLOCK_SHIFT) - 1
+_W = np.uint32
 _U = np.uint64
 
 
@@ -97,10 +102,10 @@ class MissMap:
         low, high = _reach(points, scan, origins, self.size, *limits)
         if self._reach.size:
             low, high = np.minimum(low, self._reach[0]), np.maximum(high, self._reach[1])
-        window = _Window.over(low, high) if np.prod(high - low + 3.0) < _LARGEST / 8 else None
-        self._beyond = window is None
-        if window is not None:
-            self._window, self._reach = window, np.stack([low, high])
+        bits = sum(int(n).bit_length() for n in high - low + 3)
+        self._beyond = bits > _WINDOW_BITS
+        if not self._beyond:
+            self._window, self._reach = _Window.over(low, high), np.stack([low, high])
 
     def _grow(self) -> None:
         pool = np.zeros((2 * len(self._pool), _VOLUME), dtype=np.uint8)
@@ -208,10 +213,11 @@ def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  #
     """Follow rays from ``start`` on; ends before the first that the pool (True) or the window cannot take."""
     size, nearest, farthest = ranges
     keys, ids = blocks
-    near, place, beyond = window
+    _, place, beyond = window
     inverse, counts = 1.0 / size, pool.reshape(-1)
-    cells, voxels = np.empty(_LENGTH, dtype=np.uint32), np.empty(_LENGTH, dtype=np.uint32)
+    queue, waiting, entering = np.empty(_QUEUE, dtype=np.uint32), 0, 0
     cx, cy, cz = place[0], place[1], place[2]
+    row, column = place[4] + place[5], place[5]
     wide, deep, high = (1 << place[3]) - 1, (1 << place[4]) - 1, (1 << place[5]) - 1
     for i in range(start, len(points)):
         if scan[i] < 0:
@@ -235,8 +241,12 @@ def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  #
             and (min(ay, by) > 0 and max(ay, by) < deep)
             and (min(az, bz) > 0 and max(az, bz) < high)
         )
-        if used + entered > len(pool) or not (inside or beyond):
-            return i, used, used + entered > len(pool)
+        entering += entered
+        if waiting > _QUEUE - _PART - _TOGETHER or used + entering > len(pool) or not (inside or beyond):
+            used = _count(queue, waiting, window, keys, ids, counts, used)
+            waiting, entering = 0, entered
+            if used + entered > len(pool) or not (inside or beyond):
+                return i, used, used + entered > len(pool)
         dx, dy, dz = px - ox, py - oy, pz - oz
         longest = max(abs(dx), abs(dy), abs(dz), 1e-9)
         sx, sy, sz = int(dx / longest * ONE), int(dy / longest * ONE), int(dz / longest * ONE)
@@ -245,55 +255,78 @@ def _carve(points, scan, origins, ranges, blocks, pool, window, used, start):  #
         if not inside:
             used = _follow_far(x, y, z, sx, sy, sz, n, keys, ids, counts, used)
             continue
-        x, y, z = x - (cx << BLOCK_SHIFT), y - (cy << BLOCK_SHIFT), z - (cz << BLOCK_SHIFT)
-        for first in range(0, n, _LENGTH):
-            part = min(n - first, _LENGTH)
+        for first in range(0, n, _PART):
+            if waiting > _QUEUE - _PART - _TOGETHER:
+                used = _count(queue, waiting, window, keys, ids, counts, used)
+                waiting = 0
+            part = min(n - first, _PART)
+            u, v, w = x + first * sx, y + first * sy, z + first * sz
+            corner = ((u >> BLOCK_SHIFT) - cx - _MIDDLE) << row
+            corner += ((v >> BLOCK_SHIFT) - cy - _MIDDLE) << column
+            corner += (w >> BLOCK_SHIFT) - cz - _MIDDLE
             _locate(
-                _U(x + first * sx),
-                _U(y + first * sy),
-                _U(z + first * sz),
-                _U(sx),
-                _U(sy),
-                _U(sz),
+                _W((u & _LOW) + (_MIDDLE << BLOCK_SHIFT)),
+                _W((v & _LOW) + (_MIDDLE << BLOCK_SHIFT)),
+                _W((w & _LOW) + (_MIDDLE << BLOCK_SHIFT)),
+                _W(sx),
+                _W(sy),
+                _W(sz),
                 part,
-                _U(place[4] + place[5]),
-                _U(place[5]),
-                cells,
-                voxels,
+                _W(corner << _VOXEL_BITS),
+                _W(1 << (row + _VOXEL_BITS)),
+                _W(1 << (column + _VOXEL_BITS)),
+                queue,
+                _U(waiting),
             )
-            for k in range(part):
-                block = near[cells[k]]
-                if block < 0:
-                    c = int(cells[k])
-                    bx = cx + (c >> (place[4] + place[5]))
-                    block, used = _open(bx, cy + ((c >> place[5]) & deep), cz + (c & high), keys, ids, used)
-                    near[cells[k]] = block
-                at = (_U(block) << _U(12)) | _U(voxels[k])
-                if counts[at] < _MOST:
-                    counts[at] += np.uint8(1)
+            waiting += part
+    used = _count(queue, waiting, window, keys, ids, counts, used)
     return len(points), used, False
 
 
 @njit(cache=True, nogil=True)
-def _locate(x, y, z, sx, sy, sz, n, row, column, cells, voxels):  # type: ignore[no-untyped-def]
-    """Cell of the window, and voxel of the block, at each of ``n`` steps. All integers are unsigned.
+def _locate(x, y, z, sx, sy, sz, n, corner, row, column, queue, at):  # type: ignore[no-untyped-def]
+    """Queue the place of each of ``n`` steps: cell of the window, and below it the voxel in its block.
 
-    The inner loop has a fixed length and no branch: the compiler makes a few wide instructions of it.
+    All integers are unsigned words of 32 bits, the sums modulo 2 ** 32. The inner loop has a fixed length,
+    no branch and products for shifts: the compiler makes a few wide instructions of it.
     """
     for first in range(0, n, _TOGETHER):
-        at = _U(first)
-        ax, ay, az = x + at * sx, y + at * sy, z + at * sz
+        to = at + _U(first)
         for k in range(_TOGETHER):
-            step = _U(k)
-            u, v, w = ax + step * sx, ay + step * sy, az + step * sz
-            cells[at + step] = (
-                ((u >> _U(BLOCK_SHIFT)) << row) | ((v >> _U(BLOCK_SHIFT)) << column) | (w >> _U(BLOCK_SHIFT))
+            step = _W(first + k)
+            u, v, w = _W(x + _W(step * sx)), _W(y + _W(step * sy)), _W(z + _W(step * sz))
+            cell = _W(
+                _W(_W(u >> _W(BLOCK_SHIFT)) * row)
+                + _W(_W(v >> _W(BLOCK_SHIFT)) * column)
+                + _W(_W(w >> _W(BLOCK_SHIFT)) << _W(_VOXEL_BITS))
             )
-            voxels[at + step] = (
-                ((u >> _U(SHIFT - 8)) & _U(0xF00))
-                | ((v >> _U(SHIFT - 4)) & _U(0xF0))
-                | ((w >> _U(SHIFT)) & _U(0xF))
+            voxel = _W(
+                _W(_W(u >> _W(SHIFT - 8)) & _W(0xF00))
+                | _W(_W(v >> _W(SHIFT - 4)) & _W(0xF0))
+                | _W(_W(w >> _W(SHIFT)) & _W(0xF))
             )
+            queue[to + _U(k)] = _W(_W(cell + corner) + voxel)
+
+
+@njit(cache=True, nogil=True)
+def _count(queue, waiting, window, keys, ids, counts, used):  # type: ignore[no-untyped-def]
+    """Count a ray at each place that waits; returns how many blocks there are."""
+    near, place, _ = window
+    row, column = place[4] + place[5], place[5]
+    deep, high = (1 << place[4]) - 1, (1 << place[5]) - 1
+    for k in range(waiting):
+        where = queue[_U(k)]
+        cell = where >> _W(_VOXEL_BITS)
+        block = near[cell]
+        if block < 0:
+            c = int(cell)
+            bx, by, bz = place[0] + (c >> row), place[1] + ((c >> column) & deep), place[2] + (c & high)
+            block, used = _open(bx, by, bz, keys, ids, used)
+            near[cell] = block
+        at = (_U(block) << _U(_VOXEL_BITS)) | _U(where & _W(_VOLUME - 1))
+        rays = counts[at]
+        counts[at] = rays + np.uint8(rays < _MOST)  # a branch would be guessed wrong too often
+    return used
 
 
 @njit(cache=True, nogil=True)

@@ -171,13 +171,13 @@ def test_counts_of_two_maps_saturate():
     assert misses._pool.max() == MOST
 
 
-@pytest.mark.parametrize("largest", [1, 2_000, 1 << 22])
-def test_what_lies_beyond_the_window_is_counted_alike(monkeypatch, largest):
+@pytest.mark.parametrize("bits", [1, 11, 20])
+def test_what_lies_beyond_the_window_is_counted_alike(monkeypatch, bits):
     """Rays here, rays a kilometre off, and rays five kilometres off, some of them before the window grows."""
     rng = np.random.default_rng(9)
     origins = np.repeat([[0.0, 0, 0], [900, -700, 20], [0, 0, 0], [-5000, 10, 0]], 50, axis=0)
     points = origins + rng.uniform(-20, 20, (200, 3)) * [1, 1, 0.2]
-    monkeypatch.setattr(ray_carving, "_LARGEST", largest)
+    monkeypatch.setattr(ray_carving, "_WINDOW_BITS", bits)
     misses = _carved(origins, points, pieces=7)
     held = {}
     for key, counts in _counts(misses).items():
