@@ -37,6 +37,8 @@ def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int =
     """
     thinning = max(1, int(len(centroid) * 0.08 / most))
     cell_of, moments = _accumulate(centroid, cell, thinning)
+    many = moments[:, 0] >= _MIN_SURFELS
+    cell_of, moments = _kept(cell_of, many), moments[many]
     count = moments[:, 0]
     mean = moments[:, 1:4] / count[:, None]
     cov = np.empty((len(moments), 3, 3))
@@ -49,10 +51,13 @@ def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int =
 
     in_halves(part, len(cov), worth=_WORTH)
     thin = np.sqrt(np.maximum(values[:, 0], 0)) < planarity * 2 * np.sqrt(np.maximum(values[:, 1], 1e-12))
-    good = (count >= _MIN_SURFELS) & thin
-    new_id = np.where(good, np.cumsum(good) - 1, -1).astype(np.int32)
-    cell_of = np.where(cell_of >= 0, new_id[cell_of], -1).astype(np.int32)
-    return CellNormals(mean[good], vectors[good, :, 0], count[good], cell_of)
+    return CellNormals(mean[thin], vectors[thin, :, 0], count[thin], _kept(cell_of, thin))
+
+
+def _kept(cell_of: NDArray[np.int32], chosen: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """(N,) cells renumbered without those that are not ``chosen``; -1 for what lay in these."""
+    number = np.append(np.where(chosen, np.cumsum(chosen) - 1, -1), -1).astype(np.int32)
+    return number[cell_of]  # the last is that of no cell
 
 
 @njit(cache=True, nogil=True)

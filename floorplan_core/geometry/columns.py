@@ -7,6 +7,7 @@ questions like "does it reach the ceiling?" or "is it free from 0.4 to 1.8 m?" a
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 from numba import njit
@@ -19,6 +20,7 @@ LEVEL = 0.1  # m
 LEVELS = 62
 
 
+@lru_cache(maxsize=256)  # the same few heights are asked for at every plane
 def height_mask(low: float, high: float) -> np.uint64:
     """Bits of the levels that lie wholly between two heights (metres above the floor)."""
     first = max(0, round(np.ceil(low / LEVEL - 1e-6)))

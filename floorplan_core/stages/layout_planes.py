@@ -133,12 +133,12 @@ def _plane(
     residual = float(
         np.sqrt(np.average([s.residual**2 + 4 * (s.offset - offset) ** 2 for s in members], weights=weight))
     )
-    observed = _runs(
-        own := _profile(facing, offset, members, rows, evidence, doors), (own.low > 0) | (own.high > 0)
-    )
+    through = _through(facing, offset, evidence)
+    own = _profile(facing, through, members, rows, evidence, doors)
+    observed = _runs(own, (own.low > 0) | (own.high > 0))
     # A wall is more than one plane: faces, frames and recessed leaves within its thickness close it together.
     near = [s for s in wall if abs(s.offset - offset) <= config.wall_depth]
-    profile = _profile(facing, offset, near, rows, evidence, doors)
+    profile = _profile(facing, through, near, rows, evidence, doors)
     plane = LayoutPlane(
         name,
         facing,
@@ -164,13 +164,16 @@ def _own_part(runs: Float, observed: Float) -> Float:
 
 def _profile(
     facing: Facing,
-    offset: float,
+    through: Float,
     members: list[LayoutSegment],
     rows: dict[str, SegmentRows],
     evidence: Evidence,
     doors: DoorsConfig,
 ) -> WallProfile:
-    """What was seen along the plane, for every fine cell of the building's extent."""
+    """What was seen along the plane, for every fine cell of the building's extent.
+
+    :param through: (bins,) as :func:`_through` gives it.
+    """
     across = facing.axis
     bins = 2 * (evidence.shape[0] if across == 0 else evidence.shape[1])
     bits = np.zeros(bins, dtype=np.uint64)
@@ -180,7 +183,6 @@ def _profile(
     high_mask = wall_band(evidence) & ~height_mask(0, doors.crop_height)
     low: Float = count_bits(bits & low_mask) / int(low_mask).bit_count()
     high = LEVEL * count_bits(bits & high_mask).astype(np.float64)
-    through = _through(facing, offset, evidence)
     if evidence.inferred:
         # Free space is inferred from patches of floor and ceiling: spread it over the gaps.
         reach = round(_PATCHY / evidence.fine)
@@ -195,10 +197,10 @@ def _through(facing: Facing, offset: float, evidence: Evidence) -> Float:
     mask = height_mask(*_PASSAGE)
     steps = np.arange(-_DEPTH, 0.11, evidence.cell)
     columns = ((offset + facing.sign * steps - evidence.origin[facing.axis]) / evidence.cell).astype(int)
-    columns = np.unique(columns[(columns >= 0) & (columns < free.shape[1])])
-    if len(columns) == 0:
+    crossed = sorted(set(columns[(columns >= 0) & (columns < free.shape[1])].tolist()))
+    if not crossed:
         return np.zeros(2 * free.shape[0])
-    through = levels_in_all(free, columns) & mask
+    through = levels_in_all(free, crossed) & mask
     share: Float = count_bits(through) / int(mask).bit_count()
     return np.repeat(share, 2)
 

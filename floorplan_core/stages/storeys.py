@@ -88,7 +88,9 @@ class _Slab:
 def is_tall(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig) -> bool:
     """True where two storeys would fit between the lowest and the highest surfels (a sample is enough)."""
     z = surfels.centroid @ frame.rotation[2]
-    low, high = np.quantile(z, _ENDS)
+    if not np.ptp(z) > 2 * config.min_height:  # nearly every survey: ghosts and all
+        return False
+    low, high = np.quantile(z, _ENDS, overwrite_input=True)
     return bool(high - low > 2 * config.min_height)
 
 

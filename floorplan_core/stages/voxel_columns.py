@@ -69,8 +69,8 @@ def gather_evidence(
 
 def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]:
     """Origin and shape of the coarse grid; the outermost hundredth of a percent of surfels does not count."""
-    xy = xyz[:: max(1, len(xyz) // _SAMPLE), :2]
-    low, high = np.percentile(xy, [0.01, 99.99], axis=0)
+    xy = np.ascontiguousarray(xyz[:: max(1, len(xyz) // _SAMPLE), :2].T)
+    low, high = np.percentile(xy, [0.01, 99.99], axis=1, overwrite_input=True)
     if len(path):
         low, high = np.minimum(low, path.min(axis=0)), np.maximum(high, path.max(axis=0))
     origin = np.floor((low - _MARGIN) / cell) * cell
