@@ -27,6 +27,7 @@ from floorcast_app.rendering.scene import DOOR_HEIGHT
 from floorcast_app.rendering.shapes import on_wall, outline, quad, raised, triangles_of
 from floorplan_core.errors import UsageError
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
+from floorplan_core.model.layout import turned
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
@@ -97,7 +98,7 @@ def plan_parts(plan: FloorPlan, cut: float | None = None) -> tuple[Part, ...]:
     """Planes, regions (slabs with the edges of their rooms) and doors; ``cut`` metres high at most."""
     height = storey_height(plan) if cut is None else max(min(storey_height(plan), cut), SLAB)
     made = [
-        *(_plane_part(plane, height) for plane in plan.planes),
+        *(_plane_part(plane, height) for plane in plan.all_planes),
         *(part for region in plan.regions for part in _region_parts(region, height)),
         *(_door_part(door, height) for door in plan.doors),
     ]
@@ -141,15 +142,16 @@ def _cloud_part(xyz: NDArray[np.floating[Any]], colours: NDArray[np.uint32]) -> 
 def _plane_part(plane: LayoutPlane, height: float) -> Part:
     """Upright rectangles that look into the free space."""
     runs = plane.walls if len(plane.walls) else plane.observed
-    made = [_facing(quad(on_wall(plane.facing.axis, plane.offset, run), 0.0, height), plane) for run in runs]
+    lines = [turned(on_wall(plane.facing.axis, plane.offset, run), plane.turn) for run in runs]
+    made = [_facing(quad(line, 0.0, height), plane) for line in lines]
     return _mesh(_stacked(made), int(facing_colours("light")[plane.facing]))
 
 
 def _facing(triangles: Float, plane: LayoutPlane) -> Float:
     """The triangles with their corners in the order that makes them look along the plane's normal."""
     a, b, c = triangles[0]
-    along = np.cross(b - a, c - a)[plane.facing.axis] * plane.facing.sign
-    return triangles if along > 0 else triangles[:, ::-1]
+    normal = turned(np.cross(b - a, c - a)[None, :2], -plane.turn)[0]
+    return triangles if normal[plane.facing.axis] * plane.facing.sign > 0 else triangles[:, ::-1]
 
 
 def _region_parts(region: Region, height: float) -> tuple[Part, ...]:

@@ -295,8 +295,8 @@ class Workbench:
         things: dict[str, Any] = {
             "region": self.plan.regions,
             "door": self.plan.doors,
-            "plane": self.plan.planes,
-            "segment": self.plan.segments,
+            "plane": self.plan.all_planes,
+            "segment": self.plan.all_segments,
         }
         return next((t for t in things.get(item.kind, ()) if t.id == item.id), None)
 

@@ -14,28 +14,32 @@ from floorplan_core.layout import Layout, lay_out
 from floorplan_core.model import OccupancyGrid, Region, Wing
 from floorplan_core.model.floor_plan import regions_mask
 from floorplan_core.observer import Observer
-from floorplan_core.stages.corrections import Remarks, Said
+from floorplan_core.stages.corrections import Remarks, Said, said_of_part
 from floorplan_core.stages.wing_joins import PartLayout, join_doors, join_grids, join_regions, named
 from floorplan_core.stages.wings import Part, same_floor
 from floorplan_core.steps import StageRunner
 
 
 def add_wings(
-    main: Layout, parts: tuple[Part, ...], config: Config, observer: Observer
+    main: Layout, parts: tuple[Part, ...], config: Config, observer: Observer, say: Said
 ) -> tuple[Layout, tuple[Wing, ...]]:
     """``main``, which is the layout of the first part, with the regions and doors of the others.
 
-    A wing that gives no plan by itself is left out, with a remark.
+    A wing that gives no plan by itself is left out, with a remark. ``say`` is what a person said of the whole
+    plan; a wing takes what is said of its walls.
     """
     whole, remarks = parts[0].evidence, main.remarks
+    turns = [part.turn for part in parts]
     found, cells = [_part(main, 0.0)], []
     wings: list[Wing] = []
-    for part in parts[1:]:
+    for k, part in enumerate(parts[1:], start=1):
         quiet = Observer(observer.cancel)  # what a stage shows is in the frame of the building
         degrees = math.degrees(part.turn)
         area = float(np.count_nonzero(part.cells)) * part.evidence.cell**2
         try:
-            made = lay_out(part.evidence, config, StageRunner(quiet), quiet, Said(), part.cells)
+            made = lay_out(
+                part.evidence, config, StageRunner(quiet), quiet, said_of_part(say, k, turns), part.cells
+            )
         except NoPlanError as error:
             remarks += Remarks(
                 warnings=(f"A wing of {area:.0f} m2 at {degrees:.1f} degrees gives no plan: {error}",)
@@ -44,6 +48,8 @@ def add_wings(
         found.append(_part(made, part.turn))
         wings.append(_wing(made, part.turn, len(wings) + 1))
         cells.append(same_floor(part.cells, part.evidence, whole, -part.turn))
+        machine = tuple((named(ident, len(wings)), text) for ident, text in made.remarks.machine)
+        remarks += Remarks(machine, tuple(f"In the wing: {text}" for text in made.remarks.warnings))
         remarks += Remarks(
             warnings=(
                 f"A wing of {area:.0f} m2 stands at {degrees:.1f} degrees to the rest: it is planned in a "
@@ -77,8 +83,10 @@ def _part(made: Layout, turn: float) -> PartLayout:
 def _wing(made: Layout, turn: float, number: int) -> Wing:
     """Planes and segments with ids that say of which wing they are."""
     planes = tuple(
-        replace(p, id=named(p.id, number), segments=tuple(named(s, number) for s in p.segments))
+        replace(p, id=named(p.id, number), segments=tuple(named(s, number) for s in p.segments), turn=turn)
         for p in made.planes
     )
-    segments = tuple(replace(s, id=named(s.id, number), plane=named(s.plane, number)) for s in made.segments)
+    segments = tuple(
+        replace(s, id=named(s.id, number), plane=named(s.plane, number), turn=turn) for s in made.segments
+    )
     return Wing(turn, planes, segments)

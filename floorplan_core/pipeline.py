@@ -39,7 +39,7 @@ from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
-from floorplan_core.stages.corrections import Remarks, in_plan
+from floorplan_core.stages.corrections import Remarks, in_plan, said_of_part
 from floorplan_core.stages.corrections_regions import correct_names
 from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
@@ -133,9 +133,10 @@ class FloorPlanner:
             raise InputError("These stages were kept by another version; run again with --save-stages.")
         say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
         if parts:
-            main = lay_out(parts[0].evidence, config, stage, self.observer, say, parts[0].cells)
+            own = said_of_part(say, 0, [part.turn for part in parts])
+            main = lay_out(parts[0].evidence, config, stage, self.observer, own, parts[0].cells)
             made, wings = stage.correct(
-                "wings", lambda: add_wings(main, parts, config, self.observer), main, parts, config
+                "wings", lambda: add_wings(main, parts, config, self.observer, say), main, parts, config, say
             )
         else:
             made, wings = lay_out(evidence, config, stage, self.observer, say), ()
@@ -167,7 +168,7 @@ class FloorPlanner:
             warnings=self._warnings(cover, grid, said),
             seconds=stage.seconds,
             storey=storey,
-            corrected=by_hand(planes, doors, regions),
+            corrected=by_hand((*planes, *(p for w in wings for p in w.planes)), doors, regions),
             machine=said.machine_said(),
             wings=wings,
         )

@@ -15,7 +15,6 @@ from floorcast_app.actions.naming import (
     door_at,
     middle,
     names_of,
-    on_plane,
     plane_at,
     point,
     region_at,
@@ -80,21 +79,22 @@ def move_plane(
     wall: LayoutPlane = things(workbench, "plane", plane)[0]
     if to is not None:
         x, y = (float(v) for v in to)
-        offset = (x, y)[wall.facing.axis]
+        offset = wall.own((x, y))[1]
     if offset is None:
         offset = asked_number(workbench, "Move wall", "Offset in metres", wall.offset)
     if offset is None:
         return
     if snap:
         offset = _snapped(workbench, wall, offset)
-    target = point(workbench, on_plane(wall, middle(wall), offset))
+    target = point(workbench, wall.point(middle(wall), offset))
     moved = MovePlane(plane_at(workbench, wall), target)
     workbench.correct(f"Move wall {wall.id} to {offset:.3f} m", moved)
 
 
 def _snapped(workbench: Workbench, wall: LayoutPlane, offset: float) -> float:
     assert workbench.plan is not None
-    seen = [s.offset for s in workbench.plan.segments if s.facing == wall.facing]
+    segments = workbench.plan.all_segments
+    seen = [s.offset for s in segments if (s.facing, s.turn) == (wall.facing, wall.turn)]
     nearest = min(seen, key=lambda o: abs(o - offset), default=offset)
     return nearest if abs(nearest - offset) <= _SNAP else offset
 

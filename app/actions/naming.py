@@ -30,7 +30,7 @@ from floorplan_core.model.corrections import (
     ResizeDoor,
     SplitRegion,
 )
-from floorplan_core.stages.corrections import REACH, in_plan, shifted
+from floorplan_core.stages.corrections import REACH, in_plan, shifted, turned_back
 from floorplan_core.stages.corrections_doors import find_door
 from floorplan_core.stages.corrections_walls import facing_of, find_plane
 
@@ -71,12 +71,6 @@ def point(workbench: Workbench, xy: Sequence[float]) -> Point:
     return workbench.to_local((float(xy[0]), float(xy[1])))
 
 
-def on_plane(plane: LayoutPlane, along: float, offset: float | None = None) -> Point:
-    """The place ``along`` a plane (or a plane of another offset), plan coordinates."""
-    at = plane.offset if offset is None else offset
-    return (at, along) if plane.facing.axis == 0 else (along, at)
-
-
 def middle(plane: LayoutPlane) -> float:
     """Where along a plane most of it is: the middle of its longest run."""
     runs = [(float(b - a), float(a + b) / 2) for a, b in (*plane.observed, *plane.walls)]
@@ -85,10 +79,9 @@ def middle(plane: LayoutPlane) -> float:
 
 def plane_at(workbench: Workbench, plane: LayoutPlane) -> PlaneAt:
     """A plane by a place on it and by the way it looks."""
-    at = on_plane(plane, middle(plane))
-    step = list(at)
-    step[plane.facing.axis] += plane.facing.sign
-    here, there = workbench.to_local(at), workbench.to_local((step[0], step[1]))
+    along = middle(plane)
+    here = workbench.to_local(plane.point(along))
+    there = workbench.to_local(plane.point(along, plane.offset + plane.facing.sign))
     length = math.hypot(there[0] - here[0], there[1] - here[1])
     return PlaneAt(here, ((there[0] - here[0]) / length, (there[1] - here[1]) / length))
 
@@ -122,7 +115,9 @@ def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
 
 
 def _of_plane(said: Sequence[Correction], plane: LayoutPlane) -> list[int]:
-    """Backwards, as a wall may have been moved several times."""
+    """Backwards, as a wall may have been moved several times; in the axes of the wall's own part."""
+    said = [turned_back(c, plane.turn) for c in said]
+    plane = replace(plane, turn=0.0)
     out, axis = [], plane.facing.axis
     for k, c in reversed(list(enumerate(said))):
         if isinstance(c, MovePlane) and facing_of(c.plane.normal) == plane.facing:
@@ -143,7 +138,7 @@ def _speaks_of(correction: Correction, index: int, said: Sequence[Correction], p
 
 def _beside(at: PlaneAt, plane: LayoutPlane) -> PlaneAt:
     """The same place along the wall, moved onto the plane."""
-    return replace(at, at=on_plane(plane, at.at[1 - plane.facing.axis]))
+    return replace(at, at=plane.point(at.at[1 - plane.facing.axis]))
 
 
 def _is_at(at: PlaneAt, plane: LayoutPlane) -> bool:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from floorcast_app.selection import Item
 from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane
+from floorplan_core.model.layout import turned
 from floorplan_core.stages.door_apertures import door_response
 
 Float = NDArray[np.float64]
@@ -23,6 +24,7 @@ class EvidenceLayer:
     plane: str  # id
     facing: Facing
     offset: float  # metres along the facing's axis
+    turn: float  # radians from the plan's axes to those of the plane
     at: Float  # metres along the plane, middles of the bins
     step: float  # metres, width of a bin
     histogram: Float  # 0 to 1
@@ -45,10 +47,13 @@ class EvidenceLayer:
 
     def point(self, along: float) -> tuple[float, float]:
         """The place in the plan of a place along the plane, metres, manhattan frame."""
-        return (self.offset, along) if self.facing.axis == 0 else (along, self.offset)
+        own = (self.offset, along) if self.facing.axis == 0 else (along, self.offset)
+        x, y = turned(np.array([own]), self.turn)[0].tolist()
+        return x, y
 
     def along(self, x: float, y: float) -> tuple[float, float]:
         """Metres along the plane and away from it, of a place in the plan."""
+        x, y = turned(np.array([(x, y)]), -self.turn)[0].tolist()
         across, along = (x, y) if self.facing.axis == 0 else (y, x)
         return along, abs(across - self.offset)
 
@@ -58,7 +63,7 @@ def evidence_layer(plan: FloorPlan, item: Item | None, face: int = 0) -> Evidenc
 
     None where the item has no plane, or nothing was seen along it.
     """
-    planes = {p.id: p for p in plan.planes if p.profile is not None and len(p.profile.low)}
+    planes = {p.id: p for p in plan.all_planes if p.profile is not None and len(p.profile.low)}
     faces = _faces(plan, item, planes)
     if not faces:
         return None
@@ -71,6 +76,7 @@ def evidence_layer(plan: FloorPlan, item: Item | None, face: int = 0) -> Evidenc
         plane.id,
         plane.facing,
         plane.offset,
+        plane.turn,
         np.asarray(profile.start + (np.arange(len(profile.low)) + 0.5) * profile.step, dtype=np.float64),
         profile.step,
         signal.histogram,

@@ -25,10 +25,12 @@ class HitIndex:
 
         self._boxes = np.array([o.bounds for o in source.walls.openings]).reshape(-1, 4)
         self._doors = [Item("door", o.door.id) for o in source.walls.openings]
-        shapes = [plane_shape(p) for p in source.plan.planes]
+        shapes = [plane_shape(p) for p in source.plan.all_planes]
         self._planes = [s.item for s in shapes]
         self._facing = np.array([int(s.facing) for s in shapes], dtype=np.int64)
         self._offset = np.array([s.offset for s in shapes])
+        angle = np.array([s.turn + (0.0, np.pi / 2)[s.facing.axis] for s in shapes])
+        self._across = np.column_stack([np.cos(angle), np.sin(angle)])  # along which the offset is
         lines = [s.lines().reshape(-1, 4) for s in shapes]
         self._lines = np.vstack([np.zeros((0, 4)), *lines])
         self._line_plane = np.repeat(np.arange(len(shapes)), [len(line) for line in lines])
@@ -71,7 +73,7 @@ class HitIndex:
         seen = _nearest(np.where(shown, away, np.inf), reach, self._planes, look)
         if seen is not None or not dotted:
             return seen
-        away = np.abs(np.where(self._facing // 2 == 0, x, y) - self._offset)
+        away = np.abs(self._across @ (x, y) - self._offset)
         return _nearest(np.where(shown, away, np.inf), reach, self._planes, look)
 
     def _region(self, x: float, y: float, reach: float, look: Look, dotted: bool) -> Item | None:

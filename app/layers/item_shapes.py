@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from floorcast_app.layers.planes import plane_shape
 from floorcast_app.layers.source import PlanSource, Rings, rings
 from floorcast_app.selection import Item
+from floorplan_core.model.layout import turned
 
 Float = NDArray[np.float64]
 NO_LINES = np.zeros((0, 2, 2))
@@ -21,7 +22,7 @@ class ItemShape:
 
     areas: Rings = ()
     lines: Float = None  # type: ignore[assignment]  # (K, 2, 2); empty where left out
-    infinite: tuple[int, float] | None = None  # axis and offset of a plane
+    infinite: tuple[int, float, float] | None = None  # axis, offset and turn of a plane
 
     def __post_init__(self) -> None:
         if self.lines is None:
@@ -51,9 +52,9 @@ def item_shape(source: PlanSource, item: Item) -> ItemShape:
         return ItemShape(areas=_door_ring(source, item.id), lines=source.doors[item.id].line()[None])
     if item.kind == "plane" and item.id in source.planes:
         shape = plane_shape(source.planes[item.id])
-        return ItemShape(lines=shape.lines(), infinite=(shape.facing.axis, shape.offset))
-    segment = next((s for s in source.plan.segments if item == Item("segment", s.id)), None)
-    return ItemShape(lines=segment.line()[None]) if segment is not None else ItemShape()
+        return ItemShape(lines=shape.lines(), infinite=(shape.facing.axis, shape.offset, shape.turn))
+    segment = next((s for s in source.plan.all_segments if item == Item("segment", s.id)), None)
+    return ItemShape(lines=turned(segment.line(), segment.turn)[None]) if segment is not None else ItemShape()
 
 
 def _door_ring(source: PlanSource, id: str) -> Rings:

@@ -13,6 +13,8 @@ from floorplan_core.model import LayoutPlane
 
 Float = NDArray[np.float64]
 
+_STRAIGHT = 1e-6  # metres between the ends of a wall across it, beyond which it is at a slant
+
 
 @dataclass(frozen=True)
 class Snap:
@@ -21,7 +23,7 @@ class Snap:
     kind: str  # "corner", "jamb", "wall" or "" where nothing is near
     x: float  # metres, manhattan frame
     y: float
-    axis: int | None = None  # of the wall's normal, on walls
+    axis: int | None = None  # of the wall's normal, on walls; None where it is at a slant
 
     @property
     def xy(self) -> tuple[float, float]:
@@ -41,7 +43,7 @@ class SnapIndex:
         boxes = np.array([o.bounds for o in openings]).reshape(-1, 4)
         self._jambs = np.vstack([boxes[:, [i, j]] for i in (0, 2) for j in (1, 3)])
         sides = np.array([(*s.start, *s.end) for r in regions for s in r.sides]).reshape(-1, 4)
-        self._walls = np.vstack([sides, *(p.reshape(-1, 4) for p in _plane_lines(source.plan.planes))])
+        self._walls = np.vstack([sides, *(p.reshape(-1, 4) for p in _plane_lines(source.plan.all_planes))])
 
     def at(self, x: float, y: float, reach: float) -> Snap:
         """The nearest corner, jamb or wall within ``reach`` metres; else the point itself."""
@@ -75,11 +77,15 @@ def _nearest_point(points: Float, x: float, y: float, reach: float) -> tuple[flo
 
 
 def _on_wall(line: Float, x: float, y: float) -> Snap:
-    """The foot of the perpendicular on an axis-aligned wall."""
+    """The foot of the perpendicular on a wall."""
     x0, y0, x1, y1 = line.tolist()
-    if abs(x1 - x0) <= abs(y1 - y0):
+    if abs(x1 - x0) <= _STRAIGHT:
         return Snap("wall", x0, min(max(y, min(y0, y1)), max(y0, y1)), axis=0)
-    return Snap("wall", min(max(x, min(x0, x1)), max(x0, x1)), y0, axis=1)
+    if abs(y1 - y0) <= _STRAIGHT:
+        return Snap("wall", min(max(x, min(x0, x1)), max(x0, x1)), y0, axis=1)
+    dx, dy = x1 - x0, y1 - y0
+    t = min(max(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy), 0.0), 1.0)
+    return Snap("wall", x0 + t * dx, y0 + t * dy)
 
 
 def snap_offset(source: PlanSource, plane: LayoutPlane, offset: float, reach: float) -> tuple[float, str]:
@@ -89,8 +95,8 @@ def snap_offset(source: PlanSource, plane: LayoutPlane, offset: float, reach: fl
     """
     near = [
         (round(abs(s.offset - offset), 6), s.id, s.offset)
-        for s in source.plan.segments
-        if s.facing == plane.facing and abs(s.offset - offset) <= reach
+        for s in source.plan.all_segments
+        if (s.facing, s.turn) == (plane.facing, plane.turn) and abs(s.offset - offset) <= reach
     ]
     if not near:
         return offset, ""

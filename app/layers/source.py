@@ -48,7 +48,7 @@ class PlanSource:
         self.plan = plan
         self.drawn = with_own_polygons(plan)  # what the layers are made from, by one thread at a time
         self.regions: dict[str, Region] = {r.id: r for r in plan.regions}
-        self.planes: dict[str, LayoutPlane] = {p.id: p for p in plan.planes}
+        self.planes: dict[str, LayoutPlane] = {p.id: p for p in plan.all_planes}
         self.doors: dict[str, Door] = {d.id: d for d in plan.doors}
 
     @cached_property

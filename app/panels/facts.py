@@ -5,6 +5,7 @@ English words with gaps, translated by ``words`` when they are shown.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -93,8 +94,6 @@ def portrait(workbench: Workbench, item: Item | None, words: Words) -> Portrait 
 
 
 def _plan(plan: FloorPlan, units: str, words: Words) -> Portrait:
-    import math
-
     seen = sum(r.area * (1 - r.speculated_fraction) for r in plan.regions)
     total = sum(r.area for r in plan.regions)
     rooms = sum(r.label == "room" for r in plan.regions)
@@ -132,7 +131,7 @@ def _plan(plan: FloorPlan, units: str, words: Words) -> Portrait:
         (
             Fact(words("Points"), count(plan.point_count)),
             Fact(words("Segments"), count(len(plan.segments))),
-            Fact(words("Planes"), count(len(plan.planes))),
+            Fact(words("Planes"), count(len(plan.all_planes))),
             Fact(
                 words("Rectangles"), count(len(plan.cover.chosen)) if hasattr(plan.cover, "chosen") else "–"
             ),
@@ -251,7 +250,7 @@ def _door(plan: FloorPlan, door: Door, units: str, words: Words) -> Portrait:
 
 
 def _plane(plan: FloorPlan, plane: LayoutPlane, units: str, words: Words) -> Portrait:
-    parts = [s for s in plan.segments if s.id in plane.segments]
+    parts = [s for s in plan.all_segments if s.id in plane.segments]
     points = sum(s.points for s in parts)
     walls = float(sum(b - a for a, b in plane.walls))
     seen = float(sum(b - a for a, b in plane.observed))
@@ -262,10 +261,15 @@ def _plane(plan: FloorPlan, plane: LayoutPlane, units: str, words: Words) -> Por
     if plane.recess:
         chips.append((words("recess"), "chip"))
     axis = "x" if Facing(plane.facing).axis == 0 else "y"
+    wing = words(
+        "Of a wing that stands at this angle to the plan: its offset and the way it faces are along the"
+        " wing's own axes."
+    )
     what = Section(
         words("What it is"),
         (
             Fact(words("Offset"), f"{axis} {length(plane.offset, units)}", words("Along the way it faces")),
+            *((Fact(words("Turned"), angle(math.degrees(plane.turn)), wing),) if plane.turn else ()),
             Fact(
                 words("Wall"), length(walls, units), words("Length that is wall: seen, or between seen parts")
             ),
@@ -364,7 +368,7 @@ def _residual(metres: float | None, units: str) -> str:
 
 
 def _plane_name(plan: FloorPlan, id: str, units: str, words: Words) -> str:
-    plane = next((p for p in plan.planes if p.id == id), None)
+    plane = next((p for p in plan.all_planes if p.id == id), None)
     return id if plane is None else f"{id}, {words(facing_word(plane))}"
 
 

@@ -123,5 +123,5 @@ def things(plan: FloorPlan | None, kind: str) -> tuple[Region | Door | LayoutPla
     """What the list of ``kind`` holds."""
     if plan is None:
         return ()
-    lists: dict[str, tuple[Any, ...]] = {"region": plan.regions, "door": plan.doors, "plane": plan.planes}
+    lists: dict[str, tuple[Any, ...]] = {"region": plan.regions, "door": plan.doors, "plane": plan.all_planes}
     return lists[kind]

@@ -63,7 +63,7 @@ class StatusBar(QStatusBar):
         self.frame.setText(tr("frame {yaw} (support {share})").format(yaw=angle(yaw), share=percent(support)))
         self.counts.setText(
             tr("{planes} planes · {regions} regions · {doors} doors").format(
-                planes=len(plan.planes), regions=len(plan.regions), doors=len(plan.doors)
+                planes=len(plan.all_planes), regions=len(plan.regions), doors=len(plan.doors)
             )
         )
         took = sum(s for stage, s in plan.seconds.items() if stage not in ("total", "read", "export"))

@@ -24,6 +24,7 @@ from floorcast_app.rendering.shapes import (
 from floorcast_app.selection import Item
 from floorcast_app.view_state import Look
 from floorplan_core.model import Door, FloorPlan, LayoutPlane, Region
+from floorplan_core.model.layout import turned
 
 Float = NDArray[np.float64]
 
@@ -81,7 +82,7 @@ def build_scene(
         if "free_space" in look.layers:
             view.predicted()
         if "planes" in look.layers:
-            for plane in plan.planes:
+            for plane in plan.all_planes:
                 view.plane(plane)
         if "doors" in look.layers:
             for door in plan.doors:
@@ -155,7 +156,7 @@ class _View:
         alpha = HIGHLIGHT["wall"] if lit else ALPHA["bare_wall" if bare else "wall"]
         seen = {tuple(np.round(run, 3)) for run in plane.observed}
         for run in plane.walls if len(plane.walls) else plane.observed:
-            ends = self._in_section(on_wall(plane.facing.axis, plane.offset, run))
+            ends = self._in_section(turned(on_wall(plane.facing.axis, plane.offset, run), plane.turn))
             if ends is None:
                 continue
             guessed = plane.speculated or (not seen)

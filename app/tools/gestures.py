@@ -50,6 +50,7 @@ class Mark:
     role: str = "selection"  # "selection", "door", "wall" or "warning"
     text: str = ""  # beside the last point, or on the middle of a line
     axis: int = 0  # of a plane's normal
+    turn: float = 0.0  # radians from the plan's axes to those of the plane
 
 
 class Typed:

@@ -71,6 +71,7 @@ class DoorLine(TwoPointTool):
 
     role = "door"
     nowhere = "Click on a wall: a door needs one."
+    at_a_slant = "A door in a wing at another angle cannot be drawn."
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
@@ -79,6 +80,10 @@ class DoorLine(TwoPointTool):
     def start(self, at: At) -> Snap | None:
         source = self.source
         wall = source.snaps.wall(at.x, at.y, at.reach(SNAP)) if source is not None else None
+        if wall is not None and wall.axis is None:
+            self.nowhere = self.at_a_slant
+            return None
+        self.nowhere = type(self).nowhere
         if wall is not None:
             self._axis = wall.axis or 0
         return wall

@@ -10,6 +10,7 @@ from floorcast_app.layers.snap_index import snap_offset
 from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import GRIP, SNAP, At, Mark, Point, Tool, Typed, distance
 from floorplan_core.model import Door, LayoutPlane
+from floorplan_core.model.layout import turned
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
@@ -109,8 +110,8 @@ class SelectTool(Tool):
     def _drag_plane(self, held: PlaneDrag, at: At) -> None:
         if self._typed.metres is not None:
             return
-        axis = held.plane.facing.axis
-        wanted = held.plane.offset + at.xy[axis] - held.grip[axis]
+        own = held.plane.own
+        wanted = held.plane.offset + own(at.xy)[1] - own(held.grip)[1]
         reach = 0.0 if at.shift else at.reach(SNAP)
         source = self.source
         assert source is not None
@@ -124,12 +125,12 @@ class SelectTool(Tool):
         text = f"{'xy'[axis]} {format.length(held.offset, units)}  ({sign}{moved})"
         if self._typed.text:
             text = f"{'xy'[axis]} {self._typed.text}▏ → {format.length(held.offset, units)}"
-        at = list(held.grip)
-        at[axis] = held.offset
-        marks = [Mark("plane", ((at[0], at[1]),), axis=axis), Mark("text", ((at[0], at[1]),), text=text)]
-        segment = next((s for s in self.source.plan.segments if s.id == held.segment), None)  # type: ignore[union-attr]
+        turn = held.plane.turn
+        at = held.plane.point(held.plane.own(held.grip)[0], held.offset)
+        marks = [Mark("plane", (at,), axis=axis, turn=turn), Mark("text", (at,), text=text)]
+        segment = next((s for s in self.source.plan.all_segments if s.id == held.segment), None)  # type: ignore[union-attr]
         if segment is not None:
-            (a, b), (c, d) = segment.line().tolist()
+            (a, b), (c, d) = turned(segment.line(), turn).tolist()
             marks.insert(1, Mark("line", ((a, b), (c, d)), "warning"))
         return tuple(marks)
 
@@ -220,4 +221,4 @@ def _middle(plane: LayoutPlane) -> Point:
     """A point on the plane, in the middle of what was seen."""
     runs = plane.observed
     along = float((runs.min() + runs.max()) / 2) if len(runs) else 0.0
-    return (plane.offset, along) if plane.facing.axis == 0 else (along, plane.offset)
+    return plane.point(along)

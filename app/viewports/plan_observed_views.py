@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -87,8 +88,8 @@ class PlanesView:
         for shape in shown:
             _draw_dotted(painter, frame, shape)
         painter.setTransform(frame.transform(), True)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)  # they run along the pixels
         for shape in shown:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, bool(shape.turn))  # most run along pixels
             painter.setPen(plan_pen(frame, plane_colour(frame.colours, shape.facing.axis), 3.0))
             painter.drawLines(self._runs[shape.item])
 
@@ -149,18 +150,36 @@ def plane_colour(colours: Colours, axis: int) -> str:
     return colours.plane_ns if axis else colours.plane_ew
 
 
-def across(frame: Frame, axis: int, offset: float) -> tuple[QPointF, QPointF]:
+def across(frame: Frame, axis: int, offset: float, turn: float = 0.0) -> tuple[QPointF, QPointF]:
     """The ends of a line all across the pane, pixels."""
+    if turn:
+        return _slanted(frame, turn + (0.0, math.pi / 2)[axis], offset)
     x, y = frame.camera.point(offset, offset)
     if axis == 0:
         return QPointF(x, 0), QPointF(x, frame.camera.height)
     return QPointF(0, y), QPointF(frame.camera.width, y)
 
 
+def _slanted(frame: Frame, angle: float, offset: float) -> tuple[QPointF, QPointF]:
+    """The line ``offset`` metres from the origin in a direction, as long as the pane is at most."""
+    camera = frame.camera
+    normal = np.array([math.cos(angle), math.sin(angle)])
+    centre = np.array(camera.centre)
+    foot = centre + (offset - centre @ normal) * normal
+    reach = math.hypot(camera.width, camera.height) / 2 / camera.scale
+    run = reach * np.array([-normal[1], normal[0]])
+    a, b = foot - run, foot + run
+    return QPointF(*camera.point(*a.tolist())), QPointF(*camera.point(*b.tolist()))
+
+
 def _draw_dotted(painter: QPainter, frame: Frame, shape: PlaneShape) -> None:
     """A line of dots all across the pane, as a tiled brush: strokes of dashes took ten times as long."""
     axis = shape.facing.axis
     on, step = GUESSED if shape.speculated else DOTTED
+    if shape.turn:
+        painter.setPen(pen(plane_colour(frame.colours, axis), 1.0, 0.75, (float(on), float(step - on))))
+        painter.drawLine(*across(frame, axis, shape.offset, shape.turn))
+        return
     brush = QBrush(_dots_tile(plane_colour(frame.colours, axis), on, step, axis))
     start, _ = across(frame, axis, shape.offset)
     origin = frame.camera.point(0.0, 0.0)

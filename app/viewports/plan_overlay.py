@@ -28,6 +28,7 @@ from floorcast_app.viewports.plan_frame import (
 )
 from floorcast_app.viewports.plan_observed_views import across
 from floorcast_app.viewports.plan_scale import MARGIN, bar_length
+from floorplan_core.model.layout import turned
 
 COMPASS = 15.0  # pixels, radius
 CROSS = 9.0  # pixels, half the linked cursor
@@ -162,7 +163,8 @@ def _line(painter: QPainter, frame: Frame, mark: Mark) -> None:
 def _plane(painter: QPainter, frame: Frame, mark: Mark) -> None:
     """All across the pane."""
     painter.setPen(pen(_role(frame, mark), 1.8))
-    painter.drawLine(*across(frame, mark.axis, mark.points[0][mark.axis]))
+    offset = turned(np.array(mark.points[:1]), -mark.turn)[0, mark.axis]
+    painter.drawLine(*across(frame, mark.axis, float(offset), mark.turn))
 
 
 def _area(painter: QPainter, frame: Frame, mark: Mark) -> None:

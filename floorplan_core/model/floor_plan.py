@@ -61,6 +61,16 @@ class FloorPlan:
     machine: dict[str, str] = field(default_factory=dict)  # by id: what the machine had said of it
     wings: tuple[Wing, ...] = ()  # parts of the building that stand at another angle
 
+    @property
+    def all_planes(self) -> tuple[LayoutPlane, ...]:
+        """The planes with those of the wings, each in its own axes (:attr:`LayoutPlane.turn`)."""
+        return (*self.planes, *(plane for wing in self.wings for plane in wing.planes))
+
+    @property
+    def all_segments(self) -> tuple[LayoutSegment, ...]:
+        """The segments with those of the wings, each in its own axes."""
+        return (*self.segments, *(segment for wing in self.wings for segment in wing.segments))
+
     def to_world(self, xy: Float) -> Float:
         """(N, 2) manhattan plan coordinates to (N, 2) coordinates of the input's world frame, metres."""
         local = self.frame.from_manhattan(np.asarray(xy, dtype=np.float64).reshape(-1, 2))

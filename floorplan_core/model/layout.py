@@ -65,6 +65,7 @@ class LayoutSegment:
     plane: str = ""  # id of the layout plane that explains it
     structural: bool = True  # False: furniture; kept for pictures, never paired, never blocking
     evidence: tuple[str, ...] = ()  # words: why it is structural, or why not
+    turn: float = 0.0  # radians from the plan's axes to those of the wing that all of this refers to
 
     @property
     def length(self) -> float:
@@ -106,6 +107,19 @@ class LayoutPlane:
     observed: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2)))  # (K, 2) runs really seen
     recess: bool = False  # True: it lies in a recess of another plane's wall (a pane, a shut leaf, a niche)
     by_hand: str = ""  # what a person said of it: "hidden" (no wall), "kept", "moved" or "added"; "" nothing
+    turn: float = 0.0  # radians from the plan's axes to those of the wing that all of this refers to
+
+    def point(self, along: float, offset: float | None = None) -> tuple[float, float]:
+        """The place in the plan ``along`` it, metres; of a plane parallel to it where an offset is given."""
+        at = self.offset if offset is None else offset
+        own = (at, along) if self.facing.axis == 0 else (along, at)
+        x, y = turned(np.array([own]), self.turn)[0].tolist()
+        return x, y
+
+    def own(self, xy: tuple[float, float]) -> tuple[float, float]:
+        """A place in the plan as (metres along the plane, metres along its facing's axis)."""
+        x, y = turned(np.array([xy]), -self.turn)[0].tolist()
+        return (y, x) if self.facing.axis == 0 else (x, y)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ nothing is a sentence for the user, never an error.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -32,6 +33,7 @@ from floorplan_core.model.corrections import (
     ResizeDoor,
     SplitRegion,
 )
+from floorplan_core.model.layout import turned
 
 WALL_KINDS = (HidePlane, KeepPlane, MovePlane, AddWall)
 DOOR_KINDS = (AcceptDoor, RejectDoor, AddDoor, ResizeDoor)
@@ -102,6 +104,40 @@ def in_plan(corrections: Sequence[Correction], frame: ManhattanFrame) -> Said:
         return tuple(c for c in moved if isinstance(c, kinds))
 
     return Said(of(WALL_KINDS), of(DOOR_KINDS), of(SHAPE_KINDS), of(NAME_KINDS))
+
+
+def said_of_part(said: Said, part: int, turns: Sequence[float]) -> Said:
+    """What of all that was said is about one part of a building, in the axes of that part.
+
+    A wall belongs to the part whose axes it is nearest to, by the angle; of two as near to the first. Doors
+    and the shapes of regions are said of the first part, the building, only.
+
+    :param turns: radians from the plan's axes to those of each part, that of the building (0) first.
+    """
+    walls = tuple(turned_back(c, turns[part]) for c in said.walls if _part_of(c, turns) == part)
+    return replace(said, walls=walls) if part == 0 else Said(walls=walls)
+
+
+def turned_back(correction: Correction, turn: float) -> Correction:
+    """A correction with its places in axes that are turned by ``turn`` radians."""
+
+    def move(points: Sequence[Point], _direction: bool) -> tuple[Point, ...]:
+        return tuple((float(x), float(y)) for x, y in turned(np.array(points), -turn))
+
+    moved: Correction = _moved(correction, move) if turn else correction
+    return moved
+
+
+def _part_of(correction: Any, turns: Sequence[float]) -> int:
+    """The part to whose axes a wall is nearest."""
+    if isinstance(correction, AddWall):
+        (x0, y0), (x1, y1) = correction.start, correction.end
+        angle = math.atan2(y1 - y0, x1 - x0)
+    else:
+        angle = math.atan2(correction.plane.normal[1], correction.plane.normal[0])
+    quarter = math.pi / 2
+    away = [abs((angle - turn + quarter / 2) % quarter - quarter / 2) for turn in turns]
+    return min(range(len(turns)), key=lambda k: (round(away[k], 9), k))
 
 
 def _moved(correction: Any, move: Move) -> Any:

@@ -40,6 +40,10 @@
    <translation>Eine Tür kann nicht {0} m breit sein.</translation>
   </message>
   <message>
+   <source>A door in a wing at another angle cannot be drawn.</source>
+   <translation>In einem schräg stehenden Flügel lässt sich keine Tür zeichnen.</translation>
+  </message>
+  <message>
    <source>A door is a 'door' or an 'opening', not {0}.</source>
    <translation>Eine Tür ist „door“ oder „opening“, nicht {0}.</translation>
   </message>
@@ -1436,6 +1440,10 @@
    <translation>Odometrie</translation>
   </message>
   <message>
+   <source>Of a wing that stands at this angle to the plan: its offset and the way it faces are along the wing's own axes.</source>
+   <translation>Gehört zu einem Flügel, der in diesem Winkel zum Plan steht: Lage und Richtung gelten in dessen eigenen Achsen.</translation>
+  </message>
+  <message>
    <source>Of all regions, to the inside faces of the walls</source>
    <translation>Aller Regionen, bis zu den Innenseiten der Wände</translation>
   </message>
@@ -2706,6 +2714,10 @@
   <message>
    <source>Turn of the walls against the file's axes</source>
    <translation>Drehung der Wände gegen die Achsen der Datei</translation>
+  </message>
+  <message>
+   <source>Turned</source>
+   <translation>Gedreht</translation>
   </message>
   <message>
    <source>Turning</source>

@@ -104,7 +104,7 @@ def test_item_shapes_and_anchors(drawn):
         x, y = anchor(source, Item("door", door.id))
         assert shapely.LineString(door.line()).distance(shapely.Point(x, y)) < 0.3
     plane = drawn.plan.planes[0]
-    assert item_shape(source, Item("plane", plane.id)).infinite == (plane.facing.axis, plane.offset)
+    assert item_shape(source, Item("plane", plane.id)).infinite == (plane.facing.axis, plane.offset, 0.0)
     assert item_shape(source, Item("region", "nowhere")).empty
 
 
