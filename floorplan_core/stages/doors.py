@@ -13,13 +13,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from floorplan_core.config import DoorsConfig
+from floorplan_core.geometry.halves import begin
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
-from floorplan_core.stages.shut_doors import find_shut_doors
+from floorplan_core.stages.shut_doors import find_leaves, unknown_leaves
 
 _PASSABLE = 0.5  # m that two faces must have in common
 
@@ -34,13 +35,14 @@ class Candidate:
 
 def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: DoorsConfig) -> tuple[Door, ...]:
     """All doors and openings under a lintel, by axis, offset and start."""
+    leaves = begin(lambda: find_leaves(planes, evidence, config))  # of all kernels here the longest
     lintels = shows_lintels([p.profile for p in planes if p.profile])
     merged = merge_faces(find_candidates(planes, evidence, config, lintels), planes, config)
     judged = [_judged(c, lintels) for c in merged]
     likely = [d for d in judged if d.confidence >= config.min_confidence]
     edged = refine_edges(likely, planes, evidence)
     kept = [_kind(d, config) for d in edged if d.width >= config.min_width]
-    kept += find_shut_doors(planes, evidence, kept, config)
+    kept += unknown_leaves(leaves(), kept, config)
     kept.sort(key=lambda d: (d.axis, d.offset, d.start))
     return tuple(replace(door, id=f"d{k + 1}") for k, door in enumerate(kept))
 

@@ -56,19 +56,24 @@ class DepthProfile:
     lintel: Float  # above doors
 
 
-def find_shut_doors(
-    planes: Sequence[LayoutPlane], evidence: Evidence, doors: Sequence[Door], config: DoorsConfig
-) -> list[Door]:
-    """The shut doors where none of ``doors`` is, by plane and start; none where there are no viewpoints."""
+def find_leaves(planes: Sequence[LayoutPlane], evidence: Evidence, config: DoorsConfig) -> list[Door]:
+    """The shut doors of every plane, by plane and start; none where there are no viewpoints."""
     walls = [p for p in planes if len(p.walls)]
     if not evidence.viewpoints or not walls:
         return []
+    return [
+        _leaf(plane, start, end)
+        for plane, profile in zip(walls, depth_profiles(walls, evidence), strict=True)
+        for start, end in recesses(profile, config.min_width)
+    ]
+
+
+def unknown_leaves(leaves: Sequence[Door], doors: Sequence[Door], config: DoorsConfig) -> list[Door]:
+    """The shut doors that are none of ``doors``, each once: of two in one place the first."""
     found: list[Door] = []
-    for plane, profile in zip(walls, depth_profiles(walls, evidence), strict=True):
-        for start, end in recesses(profile, config.min_width):
-            made = _leaf(plane, start, end)
-            if not any(_same(made, other, config.max_thickness) for other in (*doors, *found)):
-                found.append(made)
+    for leaf in leaves:
+        if not any(_same(leaf, other, config.max_thickness) for other in (*doors, *found)):
+            found.append(leaf)
     return found
 
 
