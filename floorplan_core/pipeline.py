@@ -64,6 +64,7 @@ Float = NDArray[np.float64]
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
 EVIDENCE_SURFEL = 60  # bytes of each surfel in the manhattan frame, where it is in memory
 STAGES_SURFEL, STAGES_COLUMN = 40, 100  # bytes that the stages take for each surfel and each fine column
+STOREYS_SURFEL = 80  # where storeys have to be told apart, before
 OUTLYING = (0.1, 99.9)  # percentiles of the surfels beyond which a site does not reach
 LEFT_OUT = 1.0  # m2 of free space in no region, from which the user is told
 
@@ -183,6 +184,7 @@ class FloorPlanner:
             frame = self.map.frame(self.config.frame)
             own = self._own(frame)
             if is_tall(sample, own, self.config.storeys):
+                self._make_room(self.map.surfels, STOREYS_SURFEL, 0.0, "Telling its storeys apart")
                 sample = self.map.surfels.surfels()
             self._found = made_of, frame, find_storeys(sample, own, self.config.storeys)
         return self._found[1:]
@@ -210,20 +212,26 @@ class FloorPlanner:
         chosen = self.storeys()[storey] if self._is_one_of_many() else None
         if chosen is not None:
             surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
-        self._make_room(surfels, own)
+        self._make_room_for_plan(surfels, own)
         found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
         return replace(restrict_evidence(found, chosen) if chosen is not None else found, frame=frame)
 
-    def _make_room(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
-        """Surfels go to disk where the plan needs their place; :class:`NoPlanError` if that is too little."""
-        size, count = self.config.voxels.size, len(surfels)
+    def _make_room_for_plan(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
+        """See to it that there is memory for the evidence of ``surfels`` and for the stages."""
+        size = self.config.voxels.size
         xy = (self.map.sample().centroid @ own.rotation.T)[:, :2]
         wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()
         columns = min(wide * deep / (size / 2) ** 2, LARGEST)  # a larger site is refused for its size
-        needed = STAGES_SURFEL * count + STAGES_COLUMN * columns
-        if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * count)):
+        what = f"The plan of {wide:.0f} x {deep:.0f} m in voxels of {size:g} m"
+        self._make_room(surfels, STAGES_SURFEL, STAGES_COLUMN * columns, what)
+
+    def _make_room(self, surfels: SurfelMap, each: float, fixed: float, what: str) -> None:
+        """Surfels go to disk where memory has no place for what is made of them, ``each`` bytes of a surfel
+        and ``fixed`` ones; :class:`NoPlanError` if that is too little."""
+        needed = each * len(surfels) + fixed
+        if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * len(surfels))):
             surfels.leave_memory()
-            require_memory(needed, f"The plan of {wide:.0f} x {deep:.0f} m in voxels of {size:g} m")
+            require_memory(needed, what)
 
     def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
         """The evidence of the building and of each wing that stands at another angle; () where none does."""

@@ -7,6 +7,7 @@ the number of points, and where a limit is set no further than that: the rest go
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -199,6 +200,16 @@ class SurfelMap:
 
         in_halves(part, n, worth=_WORTH)
         return Surfels(centroid, count, variance, view, self.size, every)
+
+    def pieces(self, most: int) -> Iterator[Surfels]:
+        """The map piece by piece, ``most`` surfels each, in the order of :meth:`surfels`."""
+        self._gather()
+        for first in range(0, self._used, most):
+            rows = np.arange(first, min(first + most, self._used))
+            n = len(rows)
+            out = np.empty((n, 3)), np.empty(n, dtype=np.int32), np.empty((n, 3)), np.empty((n, 2))
+            _unpack(self._keys, self._sums, rows, self.size, out, 0, n)
+            yield Surfels(*out, self.size)
 
     def _chosen(self, every: int) -> NDArray[np.int64]:
         """Rows of the surfels in one of so many blocks."""

@@ -46,6 +46,7 @@ _THICK = 0.12  # m, a thinner slab has only one level: both storeys get its poin
 _MARGIN = 0.06  # m around such a level: its noise
 _FLAT, _STEEP = math.cos(math.radians(20)), math.sin(math.radians(15))  # |z| of normals of floors and walls
 _WALL_BAND = (0.3, 2.2)  # m from a floor, where walls are looked for
+_PIECE = 1 << 20  # surfels that are looked at together
 _ENDS = (0.002, 0.998)  # quantiles of height: the rest are ghosts
 
 
@@ -118,8 +119,8 @@ def find_storeys(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig)
 
 def restrict_surfels(surfels: SurfelMap, frame: ManhattanFrame, storey: Storey) -> SurfelMap:
     """The surfels of one storey."""
-    xyz = surfels.surfels().centroid @ frame.rotation.T
-    return surfels.select(np.flatnonzero(storey.holds(xyz)))
+    inside = [storey.holds(piece.centroid @ frame.rotation.T) for piece in surfels.pieces(_PIECE)]
+    return surfels.select(np.flatnonzero(np.concatenate(inside)))
 
 
 def restrict_path(path: Float, frame: ManhattanFrame, storey: Storey) -> Float:

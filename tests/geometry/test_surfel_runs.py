@@ -87,6 +87,16 @@ def test_a_selection_takes_points_too(room):
     assert (len(part), part.points) == (len(rows) + 1, before + 1)
 
 
+@pytest.mark.parametrize("room", [None, ROOM])
+def test_pieces_are_the_whole(room):
+    table = _filled(_scans(scans=3), room)
+    whole, pieces = table.surfels(), list(table.pieces(70_001))
+    assert len(pieces) > 2
+    for name in ("centroid", "count", "variance", "view"):
+        parts = np.concatenate([getattr(piece, name) for piece in pieces])
+        assert parts.tobytes() == getattr(whole, name).tobytes()
+
+
 def test_a_voxel_full_of_points_in_several_parts_does_not_overflow():
     table = SurfelMap(SIZE, ROOM)
     full = np.full((MOST_POINTS + 5, 3), 0.049999)
