@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from floorcast_app.actions.registry import Action, with_plan
-from floorplan_core.errors import UsageError
+from floorplan_core.errors import Cancelled, UsageError
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
+    from floorplan_core.observer import Observer
 
 PROJECT_SUFFIX = ".floorcast"
 NOT_RECORDED = ("file.save_recording", "file.quit", "plan.cancel")
@@ -82,11 +83,13 @@ def save_as(workbench: Workbench, path: str | Path | None = None) -> None:
 
 
 def export(workbench: Workbench, path: str | Path | None = None) -> None:
-    """Write the plan in the format that the file's suffix names."""
+    """Write the plan in the format that the file's suffix names; a job, as large plans take their time."""
     from floorplan_core.files import output_file
     from floorplan_core.plugins import default_registry
 
     assert workbench.plan is not None
+    if workbench.jobs.running:
+        raise UsageError("The plan is not ready yet: export it when it is, or cancel what runs.")
     target = (
         Path(path)
         if path is not None
@@ -94,10 +97,21 @@ def export(workbench: Workbench, path: str | Path | None = None) -> None:
     )
     if target is None:
         return
-    exporter = default_registry().exporter(target)
-    with output_file(target) as staging:
-        exporter.write(workbench.plan, staging)
-    workbench.ui.tell(f"Exported {target.name}.")
+    exporter, plan = default_registry().exporter(target), workbench.plan
+
+    def work(observer: Observer) -> None:
+        observer.stage_started("export")
+        try:
+            with output_file(target) as staging:
+                exporter.write(plan, staging)
+                observer.check_cancelled()  # then nothing appears
+        except Cancelled:
+            workbench.post(lambda: workbench.ui.tell(f"{target.name} was not written.", "warning"))
+            raise
+
+    workbench.jobs.start(
+        f"Exporting {target.name}", work, lambda _: workbench.ui.tell(f"Exported {target.name}.")
+    )
 
 
 def picture(

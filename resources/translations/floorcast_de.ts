@@ -644,6 +644,10 @@
    <translation>Exportieren</translation>
   </message>
   <message>
+   <source>Exporting {0}</source>
+   <translation>{0} wird exportiert</translation>
+  </message>
+  <message>
    <source>Export…</source>
    <translation>Exportieren…</translation>
   </message>
@@ -2500,6 +2504,10 @@
    <translation>Der Plan, wie das Programm ihn gemacht hat; Rückgängig bringt die Korrekturen wieder.</translation>
   </message>
   <message>
+   <source>The plan is not ready yet: export it when it is, or cancel what runs.</source>
+   <translation>Der Plan ist noch nicht fertig: exportieren Sie ihn danach, oder brechen Sie ab, was läuft.</translation>
+  </message>
+  <message>
    <source>The ratio of widths for a passage.</source>
    <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
   </message>
@@ -3230,6 +3238,10 @@
   <message>
    <source>{0} needs a window.</source>
    <translation>{0} braucht ein Fenster.</translation>
+  </message>
+  <message>
+   <source>{0} was not written.</source>
+   <translation>{0} wurde nicht geschrieben.</translation>
   </message>
   <message>
    <source>{0}: give it as an argument; there is nobody to ask.</source>
