@@ -91,7 +91,9 @@ def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:
         return shapely.MultiPolygon()
     from floorplan_core.geometry.masks import label_patches
 
-    corners, first, homes = _trace(np.pad(label_patches(mask)[0], 1))
+    labels = np.zeros((mask.shape[0] + 2, mask.shape[1] + 2), dtype=np.int32)
+    labels[1:-1, 1:-1] = label_patches(mask)[0]
+    corners, first, homes = _trace(labels)
     ring = np.repeat(np.arange(len(homes)), np.diff(first))
     return shapely.multipolygons(_assemble(shapely.linearrings(corners * cell + origin, indices=ring), homes))
 
@@ -169,6 +171,8 @@ def _corner_kind(labels, i, j):  # type: ignore[no-untyped-def]
 
 def _assemble(rings: NDArray[np.object_], homes: Int) -> NDArray[np.object_]:
     """One polygon for each patch: its largest ring is the shell, the others are holes, largest first."""
+    if len(homes) == 1:
+        return np.asarray(shapely.orient_polygons(shapely.polygons(rings)))
     size = shapely.area(shapely.polygons(rings))
     order = np.lexsort((-size, homes))
     first = np.flatnonzero(np.concatenate([[True], np.diff(homes[order]) != 0]))

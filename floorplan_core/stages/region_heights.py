@@ -53,8 +53,10 @@ def _count(xyz: Float, labels: NDArray[np.int32], origin: Float, cell: float, le
     ny, nx = labels.shape
     a_metre, a_level = 1.0 / cell, 1.0 / _LEVEL
     for k in range(len(xyz)):
+        if xyz[k, 2] <= _LOWEST:
+            continue
         level = int((xyz[k, 2] - _LOWEST) * a_level)
-        if xyz[k, 2] <= _LOWEST or level >= levels.shape[1]:
+        if level >= levels.shape[1]:
             continue
         ix, iy = int((xyz[k, 0] - origin[0]) * a_metre), int((xyz[k, 1] - origin[1]) * a_metre)
         if 0 <= ix < nx and 0 <= iy < ny and labels[iy, ix] >= 0:

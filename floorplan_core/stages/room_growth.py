@@ -91,12 +91,12 @@ class RoomGrower:
         min_support: float,
     ) -> None:
         self._walls, self._grid = walls, grid
-        self._doors = np.array([shapely.LineString(d.line()) for d in doors], dtype=object)
+        self._doors = _lines([d.line() for d in doors])
         self.sides = KnownSides(walls, doors)
         self._usual = self._deep = 0.0
         self._outdoors = _large_patches((grid.states == FREE) & ~grid.universe, _CRUMB / grid.cell**2)
-        self._runs = [(p.facing, p.offset, float(s), float(e)) for p in planes for s, e in p.walls]
-        self._lines = np.array([shapely.LineString(_line(*run)) for run in self._runs], dtype=object)
+        self._runs = [(p.facing, p.offset, s, e) for p in planes for s, e in p.walls.tolist()]
+        self._lines = _lines([_line(*run) for run in self._runs])
         self._tree = shapely.STRtree(self._lines)
         seen = [p for p in planes if not p.speculated]
         strong = [p for p in seen if p.support >= min_support and not p.recess]
@@ -134,7 +134,7 @@ class RoomGrower:
     def _fill_notches(self, polygon: Any, others: Any) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
         sides = self._sides(polygon)  # a notch that is filled leaves the sides of the others as they are
-        lines = np.array([shapely.LineString([s.start, s.end]) for s in sides])
+        lines = _lines([(s.start, s.end) for s in sides])
         for notch in polygons_of(shapely.difference(shapely.box(*polygon.bounds), polygon)):
             contact = shapely.length(shapely.intersection(lines, notch))
             known = float(contact @ np.array([s.observed for s in sides]))
@@ -294,6 +294,11 @@ def _large_patches(mask: Bool, least: float) -> Bool:
     large = np.bincount(label.ravel(), minlength=count + 1) >= least
     large[0] = False
     return np.asarray(large[label])
+
+
+def _lines(ends: Sequence[Any]) -> NDArray[np.object_]:
+    """A LineString for each pair of points."""
+    return np.asarray(shapely.linestrings(np.array(ends, dtype=np.float64).reshape(-1, 2, 2)))
 
 
 def _line(facing: Facing, offset: float, start: float, end: float) -> list[tuple[float, float]]:

@@ -28,24 +28,24 @@ def cut_walls(polygon: Any, walls: Float) -> Any:
     inner = polygon.buffer(-_DEEP, join_style="mitre")
     if inner.is_empty or len(walls) == 0:
         return polygon
-    x0, y0, x1, y1 = inner.bounds
-    near = (walls[:, [0, 2]].min(axis=1) <= x1) & (walls[:, [0, 2]].max(axis=1) >= x0)
-    near &= (walls[:, [1, 3]].min(axis=1) <= y1) & (walls[:, [1, 3]].max(axis=1) >= y0)
+    ends = walls.reshape(-1, 2, 2)
+    low, high = np.array(inner.bounds).reshape(2, 2)
+    within = np.minimum(ends.max(axis=1), high) - np.maximum(ends.min(axis=1), low)  # its bounds
+    near = (within.min(axis=1) >= 0) & (within.max(axis=1) > _SHORTEST)
     if not near.any():
         return polygon
-    lines = shapely.linestrings(walls[near].reshape(-1, 2, 2))
+    lines = shapely.linestrings(ends[near])
     inside = shapely.intersection(lines, inner)
     rows = np.flatnonzero(shapely.length(inside) > _SHORTEST)
     if len(rows) == 0:
         return polygon
     x0, y0, x1, y1 = shapely.bounds(inside[rows]).T
     along_x = x1 - x0 > y1 - y0
-    ends = np.where(
-        along_x, [[_DEEP], [_HALF]], [[_HALF], [_DEEP]]
-    )  # back to where the walk from the sides began
+    # Back to where the walk from the sides began.
+    more = np.where(along_x, [[_DEEP], [_HALF]], [[_HALF], [_DEEP]])
     whole = shapely.bounds(lines[rows]).T
-    x0, x1 = np.maximum(x0 - ends[0], whole[0] - _HALF), np.minimum(x1 + ends[0], whole[2] + _HALF)
-    y0, y1 = np.maximum(y0 - ends[1], whole[1] - _HALF), np.minimum(y1 + ends[1], whole[3] + _HALF)
+    x0, x1 = np.maximum(x0 - more[0], whole[0] - _HALF), np.minimum(x1 + more[0], whole[2] + _HALF)
+    y0, y1 = np.maximum(y0 - more[1], whole[1] - _HALF), np.minimum(y1 + more[1], whole[3] + _HALF)
     return polygon.difference(shapely.union_all(shapely.box(x0, y0, x1, y1)))
 
 

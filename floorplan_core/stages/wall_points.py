@@ -11,16 +11,15 @@ from floorplan_core.model import LayoutSegment, WallPoints
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.layout_segments import wall_band
 
+_LEVELS = 2  # of a column that were hit: one may be a stray point
 _NEAR = 0.08  # m between a column and the segment that explains it
 
 
 def thin_wall_points(evidence: Evidence, segments: Sequence[LayoutSegment]) -> WallPoints:
     """One point for each column with a vertical surface or an object above the floor."""
     bits = evidence.hits & wall_band(evidence)
-    iy, ix = np.nonzero(bits)
-    word = bits[iy, ix]
-    keep = count_bits(word) >= 2
-    iy, ix, word = iy[keep], ix[keep], word[keep]
+    at = np.flatnonzero(count_bits(bits) >= _LEVELS)
+    (iy, ix), word = np.divmod(at, bits.shape[1]), bits.ravel()[at]
     xy = np.empty((len(ix), 2), dtype=np.float32)
     for k, cells in enumerate((ix, iy)):
         xy[:, k] = evidence.origin[k] + (cells + 0.5) * evidence.fine
