@@ -13,6 +13,7 @@ import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 _HOMES = ("geometry", "stages", "readers", "simulation")  # the packages that hold kernels
 _KEPT = 3  # folders of earlier states that stay
@@ -56,6 +57,26 @@ def on_first_compilation(tell: Callable[[], None]) -> None:
             pass
 
     event.register("numba:compile", First())
+
+
+def import_numba() -> None:
+    """Import numba with its array functions, but not ``scipy.linalg``, which takes as long as all the rest.
+
+    Numba imports it only to see that it is there; a kernel that needs it imports it again. None of ours does.
+    """
+    names = ("scipy.linalg", "scipy.linalg.cython_blas")
+    if "numba.np.arraymath" in sys.modules or "scipy.linalg" in sys.modules:
+        return
+    import numba  # before the stand-ins: it imports scipy itself
+
+    stand_ins = {name: ModuleType(name) for name in names}
+    sys.modules.update(stand_ins)
+    try:
+        import numba.np.arraymath  # noqa: F401
+    finally:
+        for name, module in stand_ins.items():
+            if sys.modules.get(name) is module:
+                del sys.modules[name]
 
 
 def source_digest() -> str:

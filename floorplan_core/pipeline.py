@@ -7,7 +7,6 @@ plan        frame and storey, voxel columns; segments, planes, doors, universe, 
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -19,6 +18,7 @@ from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
 from floorplan_core.geometry.surfel_map import SurfelMap
+from floorplan_core.kernel_times import stopwatch
 from floorplan_core.layout import lay_out
 from floorplan_core.layout_wings import add_wings
 from floorplan_core.memory import fits, require_memory
@@ -87,6 +87,7 @@ class FloorPlanner:
         self.names: RegionNames = NamesOfRun()  # what the regions were called in the plans before
         # After so many points, with these settings:
         self._found: tuple[tuple[object, ...], ManhattanFrame, tuple[Storey, ...]] | None = None
+        self._ahead = 0.0  # seconds in which the frame was found before a plan was asked for
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
         """Add one scan.
@@ -105,7 +106,10 @@ class FloorPlanner:
 
         Raises :class:`NoPlanError` where there is no Manhattan frame to find them in.
         """
-        return self._frame_and_storeys()[1]
+        seconds = stopwatch()
+        found = self._frame_and_storeys()[1]
+        self._ahead += seconds()
+        return found
 
     def plan(
         self,
@@ -124,8 +128,8 @@ class FloorPlanner:
             something else are run again.
         """
         self.map.settle()
-        config, integrating = self.config, {"integrate": self.map.seconds}
-        stage = StageRunner(self.observer, given, integrating, memory)
+        config, before = self.config, {"integrate": self.map.seconds, "frame": self._ahead}
+        stage, self._ahead = StageRunner(self.observer, given, before, memory), 0.0
 
         frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
         evidence = stage("occupancy", lambda: self._evidence_of(storey, frame), frame, config.voxels)
@@ -346,7 +350,7 @@ def integrate_all(
     reconstruction = as_configured(reconstruction, config or Config(), observer)
     planner = FloorPlanner(config, observer, reconstruction.name, reconstruction.local_frame)
     planner.map.expect(reconstruction.point_count or 0)
-    began, done = time.perf_counter(), 0
+    seconds, done = stopwatch(), 0
     observer.stage_started("read", reconstruction.point_count)
     for chunk in reconstruction.chunks():
         observer.check_cancelled()
@@ -354,6 +358,6 @@ def integrate_all(
         done += len(chunk.points)
         observer.progress("read", done)
     planner.map.finish()
-    took = time.perf_counter() - began
+    took = seconds()
     observer.stage_finished("read", took)
     return planner, took

@@ -7,7 +7,6 @@ when a run is cancelled. One thread at a time; nothing here knows a screen.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -88,12 +87,13 @@ class PlanningSession:
         if self.ready:
             return
         from floorplan_core.drift import as_configured
+        from floorplan_core.kernel_times import stopwatch
         from floorplan_core.pipeline import FloorPlanner
 
         survey = self.reconstruction = as_configured(self.reconstruction, self._read_with, observer)
         planner = FloorPlanner(self._read_with, observer, survey.name, survey.local_frame)
         planner.map.expect(survey.point_count or 0)
-        began, done = time.perf_counter(), 0
+        seconds, done = stopwatch(), 0
         observer.stage_started("read", survey.point_count)
         for chunk in survey.chunks():
             observer.check_cancelled()
@@ -104,7 +104,7 @@ class PlanningSession:
             observer.progress("read", done)
         planner.map.finish()
         planner.names = self._names
-        self._read_seconds = time.perf_counter() - began
+        self._read_seconds = seconds()
         observer.stage_finished("read", self._read_seconds)
         self._planner, self.ready = planner, True
 

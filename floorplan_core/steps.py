@@ -7,11 +7,11 @@ by step, so a run that was cancelled half way is half done the next time.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from typing import TypeVar, cast
 
 from floorplan_core.config import Section
+from floorplan_core.kernel_times import stopwatch
 from floorplan_core.model.corrections import Correction
 from floorplan_core.observer import Observer
 
@@ -52,7 +52,7 @@ def _same(a: object, b: object) -> bool:
 
 
 class StageRunner:
-    """Runs step after step of one plan; ``seconds`` holds the wall time of each stage."""
+    """Runs step after step of one plan; ``seconds`` holds the wall time of each stage, kernels loaded."""
 
     def __init__(
         self,
@@ -91,9 +91,9 @@ class StageRunner:
 
     def _timed(self, name: str, work: Callable[[], T]) -> T:
         self._observer.stage_started(name)
-        began = time.perf_counter()
+        seconds = stopwatch()
         result = work()
-        took = time.perf_counter() - began
+        took = seconds()
         self.seconds[name] = self.seconds.get(name, 0.0) + took
         self._observer.stage_finished(name, took, result)
         return result

@@ -9,7 +9,6 @@ lifted to walls of full height.
 from __future__ import annotations
 
 import math
-import time
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
@@ -24,6 +23,7 @@ from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
 from floorplan_core.geometry.ray_carving import BLOCK, MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
+from floorplan_core.kernel_times import stopwatch
 from floorplan_core.memory import free_memory, require_memory
 from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
 from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
@@ -149,9 +149,9 @@ class SurveyMap:
 
     def _mark_free(self, centres: Points, side: float) -> None:
         """Free voxels that the file itself knows (an OctoMap): they need no viewpoints."""
-        began = time.perf_counter()
+        seconds = stopwatch()
         self.rays.mark(subdivide(centres, side, self.surfels.size), FILE_RAYS)
-        self.seconds += time.perf_counter() - began
+        self.seconds += seconds()
 
     def _follow(self, trajectory: Trajectory, first: int, last: int) -> None:
         """Widen the part of the trajectory that was used: the path does not depend on the chunks."""
@@ -177,7 +177,7 @@ class SurveyMap:
         self._lattice, self.planar, self.own, self._sample = None, False, OwnFrame(), None
 
     def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
-        began = time.perf_counter()
+        seconds = stopwatch()
         points, scan, origins = self._prepared(points, scan, origins)
         pieces = deque(range(0, len(points), PIECE))
 
@@ -192,7 +192,7 @@ class SurveyMap:
         carve(self._more_rays)
         carving.result()
         self._check_rays()
-        self.seconds += time.perf_counter() - began
+        self.seconds += seconds()
 
     def _check_rays(self) -> None:
         """Raise :class:`NoPlanError` where there is no memory for the ray counts to grow once more."""

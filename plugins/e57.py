@@ -11,10 +11,10 @@ from contextlib import closing
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floorcast_plugins._e57_scans import E57Scan, check_file, list_scans, read_scan
 from floorplan_core.api import (
     EmptyInput,
     Observer,
@@ -30,6 +30,9 @@ from floorplan_core.api import (
     hookimpl,
     spread_sample,
 )
+
+if TYPE_CHECKING:
+    from floorcast_plugins._e57_scans import E57Scan
 
 SAMPLE_SCANS = 32
 SAMPLE_READ = 1 << 20  # points of all scans together that are read for the sample: libE57 cannot seek
@@ -65,6 +68,8 @@ class E57Reader:
 
 def e57_source(path: Path, trajectory_given: bool = False) -> PointSource:
     """The points of all scans."""
+    from floorcast_plugins._e57_scans import check_file, list_scans  # kernels: only for files that need them
+
     scans = list_scans(path, check_file(path))
     if not scans:
         raise EmptyInput(f"{path.name} is an E57 file without points.")
@@ -113,6 +118,8 @@ def _without_sensors(source: PointSource) -> PointSource:
 
 
 def _chunks(path: Path, scans: list[E57Scan], sensors: bool) -> Iterator[RawChunk]:
+    from floorcast_plugins._e57_scans import read_scan
+
     for row, scan in enumerate(scans):
         for read in read_scan(path, scan):
             yield _chunk(read, scan, row if sensors else None)
@@ -125,6 +132,8 @@ def _chunk(read: RawChunk, scan: E57Scan, row: int | None) -> RawChunk:
 
 def _sample(path: Path, scans: list[E57Scan]) -> RawChunk:
     """Points from the beginning of scans that are spread over the file, in file coordinates."""
+    from floorcast_plugins._e57_scans import read_scan
+
     rows = np.unique(np.linspace(0, len(scans) - 1, SAMPLE_SCANS).astype(int)).tolist()
     parts = []
     for row in rows:

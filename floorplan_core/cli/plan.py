@@ -37,6 +37,7 @@ from floorplan_core.cli.plan_files import (
     write_report,
 )
 from floorplan_core.cli.planning import make_any_plans, replan, stages_of
+from floorplan_core.kernel_times import kernel_seconds
 
 if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan
@@ -116,6 +117,7 @@ class Writer:
         if self._stages:
             save_run(plan, self._observer, folder)
         self._observer.results.clear()  # what the next storey makes is its own
+        times["kernels"] = kernel_seconds()
         times["total"] = perf_counter() - self._started
         self.done.append(Written(plan, write_report(plan, times, self._observer, folder)))
 

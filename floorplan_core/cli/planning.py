@@ -75,12 +75,15 @@ def make_plans(
     """
     from floorplan_core.errors import NoPlanError
 
+    clock = {"start": find_plugins()}
     started = perf_counter()
     reconstruction = open_input(surveys, trajectory, config, observer)
-    clock = {"read": perf_counter() - started}
+    clock["read"] = perf_counter() - started
+    started = perf_counter()
     announce_compilation(observer)
     from floorplan_core.pipeline import integrate_all  # after opening: bad input is answered at once
 
+    clock["start"] += perf_counter() - started
     planner, _ = integrate_all(timed_chunks(reconstruction, clock), config, observer)
     numbers = [s.number for s in planner.storeys()] if storey is None else [storey]
     failed: list[NoPlanError] = []
@@ -97,11 +100,28 @@ def make_plans(
 
 def announce_compilation(observer: CommandObserver) -> None:
     """From now on say so when kernels have to be compiled, which makes the first run of a kind longer."""
-    from floorplan_core.kernel_cache import kernels_compiled, on_first_compilation, use_kernel_cache
+    from floorplan_core.kernel_cache import (
+        import_numba,
+        kernels_compiled,
+        on_first_compilation,
+        use_kernel_cache,
+    )
+    from floorplan_core.kernel_times import time_kernels
 
     use_kernel_cache()
+    import_numba()
+    time_kernels()
     sentence = COMPILES_MORE if kernels_compiled() else COMPILES_FIRST
     on_first_compilation(lambda: observer.console.message(sentence))
+
+
+def find_plugins() -> float:
+    """Find the plugins; returns the seconds that it took, which are none of the reader's."""
+    from floorplan_core.plugins import default_registry
+
+    started = perf_counter()
+    default_registry()
+    return perf_counter() - started
 
 
 def replan(
@@ -138,14 +158,15 @@ def open_input(
 
 def timed_chunks(reconstruction: Reconstruction, clock: Clock) -> Reconstruction:
     """The same survey; the seconds that its reader takes for its chunks are added to ``clock["read"]``."""
+    from floorplan_core.kernel_times import stopwatch
     from floorplan_core.model import PointChunk
 
     def chunks() -> Iterator[PointChunk]:
         source = reconstruction.chunks()
         while True:
-            started = perf_counter()
+            seconds = stopwatch()
             chunk = next(source, None)
-            clock["read"] += perf_counter() - started
+            clock["read"] += seconds()
             if chunk is None:
                 return
             yield chunk

@@ -14,7 +14,6 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
-from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.model import FloorPlan, MapRaster
 
 _EIGHT_BITS = 255
@@ -36,6 +35,8 @@ class LabelImageExporter:
 
 def region_labels(plan: FloorPlan) -> NDArray[np.int32]:
     """(ny, nx) place of the region that holds a cell's centre, from 1; 0: none. Row 0 is the lowest y."""
+    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
+
     raster = plan.raster or world_raster(plan)
     labels = np.zeros(raster.shape, dtype=np.int32)
     for number, region in enumerate(plan.regions, start=1):

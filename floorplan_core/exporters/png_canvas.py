@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from floorplan_core.exporters.placement import LEADING, Placed, block_size
-from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.model import FloorPlan
 
 Float = NDArray[np.float64]
@@ -66,6 +65,8 @@ class View:
 
     def window(self, polygon: Any) -> tuple[tuple[slice, slice], NDArray[np.bool_]]:
         """Rows, columns and mask of the pixels inside a shapely polygon, row 0 lowest."""
+        from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
+
         return polygon_window(polygon, self.origin, 1.0 / self.scale, (self.height, self.width))
 
     def sample(self, cells: NDArray[Any], origin: Float, cell: float, outside: Any) -> NDArray[Any]:

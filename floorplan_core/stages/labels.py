@@ -14,7 +14,6 @@ import numpy as np
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.turning import turning_distance
 from floorplan_core.model import Region
 from floorplan_core.plugins import RegionClassifier
 
@@ -47,6 +46,8 @@ def label_regions(
 
 def region_turning_distance(region: Region) -> float:
     """Turning distance between the region's outer boundary and the unit square."""
+    from floorplan_core.geometry.turning import turning_distance  # kernels: not for finding the classifier
+
     return turning_distance(np.asarray(region.polygon.exterior.coords, dtype=np.float64)[:-1, :2])
 
 

@@ -123,8 +123,9 @@ def test_spherical_and_invalid(tmp_path):
 
 
 def test_chunks_are_bounded(tmp_path, parts, monkeypatch):
-    import floorcast_plugins.e57 as module
-    from floorcast_plugins._e57_scans import read_scan
+    import floorcast_plugins._e57_scans as module
+
+    read_scan = module.read_scan
 
     def small(path, scan, size=500):
         return read_scan(path, scan, min(size, 500))
