@@ -4,7 +4,10 @@ import multiprocessing
 import sys
 from pathlib import Path
 
+from floorplan_core.packed_libraries import LinkBeforeImport
+
 if __name__ == "__main__":
+    sys.meta_path.insert(0, LinkBeforeImport(Path(sys._MEIPASS) / "packed"))  # before helper processes begin
     multiprocessing.freeze_support()
     if Path(sys.argv[0]).stem == "floorcast-desktop":
         sys.argv[1:1] = ["gui"]
