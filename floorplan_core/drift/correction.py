@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -58,11 +58,11 @@ def corrected(survey: Reconstruction, config: Config, observer: Observer) -> Rec
     observer.stage_started("drift")
     keyframes = cut_path(trajectory, config.drift.keyframe)
     rotation, points = _frame(survey, keyframes, config, observer)
-    patches = [
-        keyframe_patches(part, origin, rotation, config.frame)
-        for part, origin in zip(points, keyframes.origin, strict=True)
-    ]
-    correction = find_correction(patches, keyframes, rotation, config.drift)
+    patches = []
+    for part, origin in zip(points, keyframes.origin, strict=True):
+        observer.check_cancelled()
+        patches.append(keyframe_patches(part, origin, rotation, config.frame))
+    correction = find_correction(patches, keyframes, rotation, config.drift, observer.check_cancelled)
     moves = scan_moves(correction, keyframes, trajectory, rotation)
     observer.stage_finished("drift", time.perf_counter() - began)
     largest = float(np.linalg.norm(correction.shift, axis=1).max())
@@ -89,6 +89,7 @@ def _frame(
     points = gather(survey, keyframes, observer)
     surfels = SurfelMap(config.voxels.size / 2)
     for part in points:
+        observer.check_cancelled()
         surfels.insert(part, np.full(len(part), -1, dtype=np.int32), np.zeros((0, 3)), (0.0, np.inf))
     if not len(surfels):
         raise NoPlanError(f"No point of {survey.name} refers to its trajectory; drift cannot be corrected.")
@@ -96,12 +97,19 @@ def _frame(
 
 
 def find_correction(
-    patches: Sequence[CellNormals], keyframes: Keyframes, rotation: Float, config: DriftConfig
+    patches: Sequence[CellNormals],
+    keyframes: Keyframes,
+    rotation: Float,
+    config: DriftConfig,
+    check: Callable[[], None] = lambda: None,
 ) -> Correction:
-    """Headings from the walls of each keyframe, then the three axes one by one."""
+    """Headings from the walls of each keyframe, then the three axes one by one.
+
+    ``check`` is called again and again; it raises where nobody wants the answer any more.
+    """
     length = np.diff(keyframes.path)
-    turn = headings(patches, HEADING_FLOOR + np.radians(config.heading) * length)
-    sightings = find_sightings(patches, turn)
+    turn = headings(patches, HEADING_FLOOR + np.radians(config.heading) * length, check)
+    sightings = find_sightings(patches, turn, check)
     origin = keyframes.origin @ rotation.T
     step = _turned_steps(np.diff(origin, axis=0), turn)
     sigma = STEP_FLOOR + config.odometry * length
@@ -109,7 +117,7 @@ def find_correction(
     shift, planes = np.zeros((len(keyframes), 3)), 0
     for axis in range(3):
         problem = _problem(sightings, axis, start, step[:, axis], sigma)
-        positions, plane = solve_axis(problem, tuple(r * config.reach for r in ROUNDS))
+        positions, plane = solve_axis(problem, tuple(r * config.reach for r in ROUNDS), check)
         moved = positions - origin[:, axis]
         shift[:, axis] = moved - moved[0]  # nothing fixes the whole: it stays where it began
         planes += int(plane.max()) + 1 if len(plane) else 0

@@ -11,6 +11,7 @@ reach, and it repeats.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,10 +45,13 @@ class AxisProblem:
     high: Float  # (S, 2)
 
 
-def solve_axis(problem: AxisProblem, reaches: tuple[float, ...]) -> tuple[Float, Index]:
+def solve_axis(
+    problem: AxisProblem, reaches: tuple[float, ...], check: Callable[[], None] = lambda: None
+) -> tuple[Float, Index]:
     """(K,) positions of the keyframes, the first at 0, and (S,) plane of each sighting.
 
-    ``reaches`` rise: how far (metres) the offsets of one plane may lie apart in each round.
+    ``reaches`` rise: how far (metres) the offsets of one plane may lie apart in each round. ``check`` is
+    called again and again; it raises where nobody wants the answer any more.
     """
     plane = np.arange(len(problem.distance), dtype=np.intp)
     positions, offsets = least_squares(problem, plane)
@@ -55,7 +59,7 @@ def solve_axis(problem: AxisProblem, reaches: tuple[float, ...]) -> tuple[Float,
         pairs, weights = candidate_pairs(problem, plane, offsets, reach)
         if not len(pairs):
             continue
-        plane = select(problem, plane, pairs, weights)
+        plane = select(problem, plane, pairs, weights, check)
         positions, offsets = least_squares(problem, plane)
         plane = part_misfits(problem, plane, positions, offsets)
         positions, offsets = least_squares(problem, plane)
@@ -113,22 +117,27 @@ def candidate_pairs(problem: AxisProblem, plane: Index, offsets: Float, reach: f
     return pairs, weights / max(float(mass.mean()), 1e-9)
 
 
-def select(problem: AxisProblem, plane: Index, pairs: Index, weights: Float) -> Index:
+def select(
+    problem: AxisProblem, plane: Index, pairs: Index, weights: Float, check: Callable[[], None] = lambda: None
+) -> Index:
     """The planes after those that land on one offset are made one, as strongly as the noise allows."""
     best = plane
     for strength in STRENGTHS:
-        positions, offsets = _draw_together(problem, plane, pairs, strength * weights)
+        positions, offsets = _draw_together(problem, plane, pairs, strength * weights, check)
         if not _within_noise(problem, plane, positions, offsets):
             break
         best = _merged(plane, pairs, offsets)
     return best
 
 
-def _draw_together(problem: AxisProblem, plane: Index, pairs: Index, weights: Float) -> tuple[Float, Float]:
+def _draw_together(
+    problem: AxisProblem, plane: Index, pairs: Index, weights: Float, check: Callable[[], None]
+) -> tuple[Float, Float]:
     """Least squares plus ``weights`` times the absolute distances of the pairs."""
     pull = weights / SMALLEST / 10
     positions, offsets = least_squares(problem, plane, pairs, pull)
     for _ in range(ROUNDS):
+        check()
         gap = np.abs(offsets[pairs[:, 0]] - offsets[pairs[:, 1]])
         pull = weights / np.maximum(gap, SMALLEST)
         before = offsets

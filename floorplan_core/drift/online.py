@@ -142,7 +142,9 @@ class CorrectingPlanner:
         keyframes = cut_path(path, self.config.drift.keyframe)
         rotation = estimate_frame(self._surfels.surfels(), self.config.frame).rotation
         patches = [self._patches_of(k, origin, rotation) for k, origin in enumerate(keyframes.origin)]
-        correction = find_correction(patches, keyframes, rotation, self.config.drift)
+        correction = find_correction(
+            patches, keyframes, rotation, self.config.drift, self.observer.check_cancelled
+        )
         self._moves = scan_moves(correction, keyframes, path, rotation)
         self.observer.stage_finished("drift", time.perf_counter() - began)
         return Trajectory(path.stamps, self._moves @ path.T_world_sensor)

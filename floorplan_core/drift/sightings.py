@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,18 +49,23 @@ def keyframe_patches(points: Float, origin: Float, rotation: Float, config: Fram
     return fit_cell_normals(np.ascontiguousarray(local[first]), config.cell, config.planarity)
 
 
-def headings(patches: Sequence[CellNormals], step_sigma: Float) -> Float:
+def headings(
+    patches: Sequence[CellNormals], step_sigma: Float, check: Callable[[], None] = lambda: None
+) -> Float:
     """(K,) radians that each keyframe is turned against the frame: to be taken back.
 
     First from the directions of the patches; then, finer, from how straight each wall runs along its axis.
     Orientation is known from the walls at any moment, so it does not drift; ``step_sigma`` (K-1,) radians is
-    what the path's own heading may err from a keyframe to the next.
+    what the path's own heading may err from a keyframe to the next. ``check`` is called again and again.
     """
     total = np.array([_turn(p) for p in patches], dtype=np.complex128)
     weight = np.abs(total) / PATCH_SIGMA**2
     turn = _smoothed(np.angle(total) / 4, weight, step_sigma)
     for _ in range(HEADING_ROUNDS):
-        slopes = [_slope(part, angle) for part, angle in zip(patches, turn, strict=True)]
+        slopes = []
+        for part, angle in zip(patches, turn, strict=True):
+            check()
+            slopes.append(_slope(part, angle))
         finer, weight = np.array(slopes).T
         turn = _smoothed(turn + finer, weight, step_sigma)
     return turn
@@ -110,10 +115,13 @@ def _turn(patches: CellNormals) -> complex:
     return complex(np.sum(np.exp(4j * off[walls])))
 
 
-def find_sightings(patches: Sequence[CellNormals], turn: Float) -> Sightings:
+def find_sightings(
+    patches: Sequence[CellNormals], turn: Float, check: Callable[[], None] = lambda: None
+) -> Sightings:
     """The surfaces of all keyframes after turning each by ``-turn`` (K,) radians about the vertical."""
     rows: list[tuple[int, int, int, float, float, Float, Float]] = []
     for k, (part, angle) in enumerate(zip(patches, turn, strict=True)):
+        check()
         centre, normal = _turned_back(part, float(angle))
         for axis in range(3):
             for group, facing, distance in _surfaces(centre, normal, part.weight, axis):

@@ -28,7 +28,7 @@ def _some(kind: str) -> Callable[[random.Random, Workbench], str]:
     def choose(rng: random.Random, workbench: Workbench) -> str:
         plan = workbench.plan
         assert plan is not None
-        things = {"plane": plan.planes, "door": plan.doors, "region": plan.regions}[kind]
+        things = {"plane": plan.all_planes, "door": plan.doors, "region": plan.regions}[kind]
         return rng.choice([*(t.id for t in things), "nothing"])
 
     return choose

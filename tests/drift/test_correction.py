@@ -12,9 +12,9 @@ from floorplan_core.cli import main
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured, corrected
 from floorplan_core.drift.keyframes import MOST_POINTS, cut_path, gather
-from floorplan_core.errors import NoPlanError
+from floorplan_core.errors import Cancelled, NoPlanError
 from floorplan_core.model import PointChunk, Reconstruction, Trajectory
-from floorplan_core.observer import Observer
+from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.readers import open_survey
 
 SAMPLE = Path(__file__).resolve().parents[2] / "resources" / "sample_survey"
@@ -86,6 +86,32 @@ def test_what_has_no_path_is_one_sentence(tmp_path: Path, capfd: pytest.CaptureF
     ]
     assert main.run(arguments) == 4
     assert "has no trajectory" in capfd.readouterr().err
+
+
+class _Patience(CancelToken):
+    """Says that it was cancelled when it is asked for the ``most``-th time."""
+
+    def __init__(self, most: float) -> None:
+        super().__init__()
+        self.asked, self.most = 0, most
+
+    @property
+    def cancelled(self) -> bool:
+        self.asked += 1
+        return self.asked >= self.most
+
+
+def test_it_can_be_cancelled_all_the_way(survey: Reconstruction) -> None:
+    config = Config.model_validate({"drift": {"correct": True}})
+    patient = _Patience(np.inf)
+    corrected(survey, config, Observer(patient))
+    reading = sum(1 for _ in survey.chunks())
+    assert patient.asked > 4 * reading, "it is asked while the points are read only"
+    for most in np.linspace(1, patient.asked, 4).astype(int).tolist():
+        token = _Patience(most)
+        with pytest.raises(Cancelled):
+            corrected(survey, config, Observer(token))
+        assert token.asked == most
 
 
 def test_keyframes_hold_a_bounded_number_of_points() -> None:
