@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar, QWidget
 
 H, V = Qt.Orientation.Horizontal, Qt.Orientation.Vertical
@@ -14,6 +14,11 @@ HIDDEN = {  # panes that a workspace does without
     "run": ("planes", "free_space", "evidence", "settings", "layers"),
 }
 
+SIDES = ("layers", "properties")  # panes whose width is for words, not for the plan
+SETTLED = 40  # ms after which Qt has laid out a window of another size
+TALL = (  # panes above each other
+    "space", "free_space", "planes", "floor_plan", "items", "ground_truth", "warnings", "history", "timeline",
+)  # fmt: skip
 TABLES = {"inspect": 0.24, "plan": 0.24, "run": 0.2}  # of the window's height, for the tables at the bottom
 LINE = {"inspect": 0.1, "plan": 0.1, "run": 0.25}  # for the timeline, where it is shown
 
@@ -70,6 +75,52 @@ def _resize(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
     for above, below in (("space", "free_space"), ("planes", "floor_plan"), ("properties", "evidence")):
         if not {above, below} & set(HIDDEN[workspace]):
             window.resizeDocks([docks[above], docks[below]], [half, half], V)
+
+
+class Proportions(QObject):
+    """A larger window gives its room to the panes: the sides keep their width, heights their share.
+
+    Qt by itself gives all of it to the bottom.
+    """
+
+    def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
+        super().__init__(window)
+        self._window, self._docks = window, docks
+        self._sizes: dict[str, QSize] = {}  # of the docks shown, when nothing moved any more
+        self._whole = QSize()  # of the window then
+        self._follows = QTimer(self, singleShot=True, interval=SETTLED)
+        self._follows.timeout.connect(self._follow)
+        self._rests = QTimer(self, singleShot=True, interval=0)
+        self._rests.timeout.connect(self._remember)
+        for dock in docks.values():
+            dock.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """A border was moved, by the user or by us."""
+        if event.type() in (QEvent.Type.Resize, QEvent.Type.Hide, QEvent.Type.Show):
+            self._rests.start()
+        return False
+
+    def window_resized(self) -> None:
+        """To be told of the window's new size."""
+        if self._sizes and self._window.size() != self._whole:
+            self._follows.start()
+
+    def _remember(self) -> None:
+        if self._window.isVisible() and not self._follows.isActive():
+            shown = {id: dock for id, dock in self._docks.items() if not dock.visibleRegion().isEmpty()}
+            self._sizes = {id: dock.size() for id, dock in shown.items() if not dock.isFloating()}
+            self._whole = self._window.size()
+
+    def _follow(self) -> None:
+        sizes = {id: size for id, size in self._sizes.items() if self._docks[id].isVisible()}
+        tall = [id for id in TALL if id in sizes]  # tabs that lie behind have no say
+        taller = self._window.height() / max(self._whole.height(), 1)
+        heights = [round(sizes[id].height() * taller) for id in tall]
+        self._window.resizeDocks([self._docks[id] for id in tall], heights, V)
+        sides = [id for id in SIDES if id in sizes]
+        self._window.resizeDocks([self._docks[id] for id in sides], [sizes[id].width() for id in sides], H)
+        self._rests.start()
 
 
 class TitleBars:

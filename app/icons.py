@@ -6,13 +6,15 @@ import weakref
 from functools import lru_cache
 from typing import Any
 
-from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
 from PySide6.QtGui import QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import QPushButton, QToolButton
 
 from floorcast_app import theme
 
 SIZES = (16, 20, 24, 32, 48)  # pixels: what menus, buttons and big buttons ask for, also at twice the density
+BUTTON, GAP = 16, 6  # pixels: icon of a button with words, and what it keeps from them
 
 _targets: weakref.WeakKeyDictionary[Any, tuple[str, str]] = weakref.WeakKeyDictionary()
 
@@ -35,17 +37,31 @@ def pixmap(name: str, size: int, colour: str = "") -> QPixmap:
 def set_icon(target: Any, name: str, colour_role: str = "text") -> None:
     """``target.setIcon`` now, and again whenever the theme changes. ``colour_role``: a field of Colours."""
     _targets[target] = (name, colour_role)
-    target.setIcon(icon(name, getattr(theme.colours(), colour_role)))
+    if _beside_text(target):
+        target.setIconSize(QSize(BUTTON + GAP, BUTTON))
+    target.setIcon(_for(target, name, colour_role))
+
+
+def _for(target: Any, name: str, colour_role: str) -> QIcon:
+    gap = GAP if _beside_text(target) else 0
+    return _icon(name, getattr(theme.colours(), colour_role), theme.colours().faint, gap)
+
+
+def _beside_text(target: Any) -> bool:
+    """True for buttons with words: styled ones leave no distance between icon and text of their own."""
+    if isinstance(target, QToolButton):
+        return target.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+    return isinstance(target, QPushButton) and bool(target.text())
 
 
 @lru_cache(maxsize=512)
-def _icon(name: str, colour: str, faint: str) -> QIcon:
+def _icon(name: str, colour: str, faint: str, gap: int = 0) -> QIcon:
     made = QIcon()
     if not exists(name):
         return made
     for size in SIZES:
-        made.addPixmap(_drawn(name, size, colour))
-        made.addPixmap(_drawn(name, size, faint), QIcon.Mode.Disabled)
+        for inked, mode in ((colour, QIcon.Mode.Normal), (faint, QIcon.Mode.Disabled)):
+            made.addPixmap(_padded(_drawn(name, size, inked), gap * size // BUTTON), mode)
     return made
 
 
@@ -54,6 +70,18 @@ def _svg(name: str) -> str:
     """The text of the icon; "" where there is none."""
     path = theme.resource("icons", f"{name}.svg")
     return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
+def _padded(picture: QPixmap, gap: int) -> QPixmap:
+    """``picture`` with ``gap`` empty pixels at its right."""
+    if not gap:
+        return picture
+    wide = QPixmap(picture.width() + gap, picture.height())
+    wide.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(wide)
+    painter.drawPixmap(0, 0, picture)
+    painter.end()
+    return wide
 
 
 @lru_cache(maxsize=1024)
@@ -71,7 +99,7 @@ def _drawn(name: str, size: int, colour: str) -> QPixmap:
 def _retint(_name: str) -> None:
     for target, (name, role) in list(_targets.items()):
         try:
-            target.setIcon(icon(name, getattr(theme.colours(), role)))
+            target.setIcon(_for(target, name, role))
         except RuntimeError:  # Qt has deleted the widget; Python has not yet
             _targets.pop(target, None)
 

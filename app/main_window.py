@@ -16,34 +16,28 @@ from PySide6.QtGui import (
     QPainter,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
 
 from floorcast_app.actions import MENUS
 from floorcast_app.dialogs.thumbnails import plan_png
-from floorcast_app.dock_layout import TitleBars, arrange, tab_bars
+from floorcast_app.dock_layout import Proportions, TitleBars, arrange, tab_bars
 from floorcast_app.dressing import Dresser
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.recovery_banner import RecoveryBanner
 from floorcast_app.panels.status import StatusBar
-from floorcast_app.panels.storey_chooser import StoreyChooser
 from floorcast_app.panels.toast import Toast
 from floorcast_app.panes import PANES
 from floorcast_app.qt_actions import QtActions
 from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
+from floorcast_app.toolbar import MainToolbar
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.canvas import PlanCanvas
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import OutputError, UsageError
 
-TOOLBAR = (
-    "file.open", "file.save", "plan.again", "plan.cancel", "|", "edit.undo", "edit.redo", "|",
-    "tool.select", "tool.measure", "tool.plane", "tool.door", "tool.wall", "tool.split", "tool.merge", "|",
-    "view.fit", "storey", "file.export", "file.picture", "|",
-    "view.inspect", "view.plan", "view.run", "view.theme",
-)  # fmt: skip
 MENU_TITLES = {
     "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
     "correct": "Correct", "measure": "Measure", "help": "Help",
@@ -51,6 +45,13 @@ MENU_TITLES = {
 NOT_IN_MENUS = (  # they need arguments: for the palette's settings, for panes and for scripts
     "view.pane", "view.look", "edit.select", "edit.history", "plan.set", "plan.preset", "measure.set",
 )  # fmt: skip
+MENU_GROUPS = (  # actions that begin a group of their menu
+    "file.save", "file.export", "file.save_recording", "file.close", "edit.delete", "view.layer_points",
+    "view.units", "view.inspect", "plan.reset", "plan.storey", "plan.replay", "tool.measure", "tool.split",
+    "correct.accept_door", "correct.relabel", "correct.release", "measure.export", "help.english",
+    "help.about",
+)  # fmt: skip
+SUBMENUS = {"view.layer_": "Layers", "view.colour_": "Points by colour"}  # ids that begin so, and their menu
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
@@ -72,8 +73,9 @@ class MainWindow(QMainWindow):
         self.setDockOptions(self.dockOptions() | QMainWindow.DockOption.GroupedDragging)
         self.docks = {pane.id: self._dock(pane.id, pane.title, pane.make(workbench)) for pane in PANES}
         self._titles = TitleBars(self, self.docks)
+        self._proportions = Proportions(self, self.docks)
         self._fill_menus()
-        self._fill_toolbar()
+        self.addToolBar(MainToolbar(workbench, self.actions_by_id, self))
         self.status = StatusBar(workbench, self)
         self.setStatusBar(self.status)
         self.toast = Toast(self)
@@ -198,6 +200,7 @@ class MainWindow(QMainWindow):
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         self.empty.cover(self)
+        self._proportions.window_resized()
 
     # ---- inside -----------------------------------------------------------------------------------------
 
@@ -244,13 +247,19 @@ class MainWindow(QMainWindow):
 
     def _fill_menus(self) -> None:
         menus = {menu: self.menuBar().addMenu(tr(MENU_TITLES[menu])) for menu in MENUS}
+        inner: dict[str, QMenu] = {}
         for action in self.workbench.actions:
-            menu = action.id.partition(".")[0]
-            if action.id not in NOT_IN_MENUS:
-                menus[menu].addAction(self.actions_by_id[action.id])
+            menu = menus[action.id.partition(".")[0]]
+            if action.id in NOT_IN_MENUS:
+                continue
+            if action.id in MENU_GROUPS:
+                menu.addSeparator()
+            title = next((t for prefix, t in SUBMENUS.items() if action.id.startswith(prefix)), "")
+            if title and title not in inner:
+                inner[title] = menu.addMenu(tr(title))
+            inner.get(title, menu).addAction(self.actions_by_id[action.id])
             if action.id == "file.open_folder":
-                menus[menu].addMenu(self._recent_menu())
-        menus["view"].addSeparator()
+                menu.addMenu(self._recent_menu())
         panes = menus["view"].addMenu(tr("Panes"))
         for dock in self.docks.values():
             panes.addAction(dock.toggleViewAction())
@@ -266,31 +275,6 @@ class MainWindow(QMainWindow):
 
         menu.aboutToShow.connect(fill)
         return menu
-
-    def _fill_toolbar(self) -> None:
-        bar = QToolBar(tr("Toolbar"), self)
-        bar.setObjectName("toolbar")
-        bar.setMovable(False)
-        bar.setIconSize(QSize(20, 20))
-        for id in TOOLBAR:
-            if id == "|":
-                bar.addSeparator()
-            elif id == "storey":
-                self._add_storeys(bar)
-            else:
-                bar.addAction(self.actions_by_id[id])
-        self.addToolBar(bar)
-
-    def _add_storeys(self, bar: QToolBar) -> None:
-        """The chooser of storeys, there only where a survey has several."""
-        chooser = StoreyChooser(self.workbench, bar)
-        shown = bar.addWidget(chooser)
-
-        def follow(*_: object) -> None:
-            shown.setVisible(chooser.wanted)
-
-        self.workbench.plan_changed.connect(follow)
-        follow()
 
     def _window_picture(self, width: int, height: int) -> QImage:
         """The whole window; one smaller than it can be is scaled."""

@@ -40,6 +40,15 @@ def tr(text: str) -> str:
     return QCoreApplication.translate(CONTEXT, text)
 
 
+def tr_n(text: str, n: int) -> str:
+    """``text`` of ``n`` things, in the form that the language has for so many: "%Ln region(s)".
+
+    English is its own catalogue: "(s)" is the plural's.
+    """
+    said = QCoreApplication.translate(CONTEXT, text, "", n)
+    return said.replace("(s)", "" if n == 1 else "s")
+
+
 def tr_action(action: Action) -> tuple[str, str]:
     """Text and tip of an action."""
     return tr(action.text), tr(action.tip) if action.tip else ""

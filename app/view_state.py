@@ -36,6 +36,7 @@ class ViewState:
 
     def __init__(self) -> None:
         self.look = Look()
+        self.room: tuple[float, float] | None = None  # pixels of the plan's pane, where there is one
         self.changed = Event()  # (before: Look, after: Look)
 
     def set(self, **values: Any) -> None:

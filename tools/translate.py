@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "resources" / "translations"
 LANGUAGES = ("de",)
 CONTEXT = "Floorcast"
+PLURALS = {"tr_n"}  # of so many things: Qt picks the form (in German one, or more)
 CALLS = {"tr", "_tr", "words", "_words"}  # their first argument is shown
 SAID = {"tell", "change", "apply", "correct", "start", "reset", "ask_open", "ask_save", "ask_text", "ask_yes"}
 ERRORS = {"UsageError", "InputError", "OutputError", "FloorPlanError", "Cancelled"}
@@ -30,7 +31,7 @@ DATA = {"Action", "Pane", "Column", "_word", "_tool"}  # classes and helpers who
 TABLES = {  # module-level tables whose strings are shown: all of them, or the values of a dict
     "LAYER_TEXTS", "COLOUR_TEXTS", "SECTION_FIELDS", "FACINGS", "TABS", "TITLES", "TIPS", "STAGES",
     "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
-    "hint", "area_hint", "nowhere", "at_a_slant", "empty",  # of tools and plan panes
+    "SUBMENUS", "hint", "area_hint", "nowhere", "at_a_slant", "empty",  # of tools and plan panes
 }  # fmt: skip
 CORE = (  # modules of the core whose sentences reach the window as warnings or assumptions
     "readers/axes.py",
@@ -39,11 +40,15 @@ CORE = (  # modules of the core whose sentences reach the window as warnings or 
     "stages/corrections_walls.py",
     "stages/exact_cover.py",
 )
+_COUNTS = re.compile(r"%L?n")
 LETTERS = {"N", "E", "S", "W"}  # of the compass
 EXTRA = (  # words of the core that lists show
+    "Room", "Corridor", "Predicted floor", "Wall", "Guessed side", "Door", "Door, found shut", "Opening",
     "room", "corridor", "door", "opening", "north", "east", "south", "west", "predicted", "recess", "wall",
     "furniture", "auto", "greedy", "exact", "metres", "centimetres", "millimetres", "feet", "rejected",
     "resized",
+    "door {0}", "region {0}", "wall {0}", "doors {0} and {1}", "regions {0} and {1}", "walls {0} and {1}",
+    "{0} doors", "{0} regions", "{0} walls",
     "Room {0}",
     "Corridor {0}",
     "floor to ceiling is then {0} m", "the height is then {0} m",
@@ -87,7 +92,7 @@ def _sentences_of(tree: ast.Module) -> Iterator[str]:
 
 def _of_call(node: ast.Call) -> Iterator[str]:
     name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-    if name in CALLS and node.args:
+    if name in CALLS | PLURALS and node.args:
         yield from _literals(node.args[0])
     elif name == "translate" and len(node.args) > 1:
         yield from _literals(node.args[1])
@@ -186,7 +191,15 @@ def read(language: str) -> dict[str, str]:
     if not path.exists():
         return {}
     messages = ElementTree.parse(path).iter("message")
-    return {m.findtext("source") or "": m.findtext("translation") or "" for m in messages}
+    return {m.findtext("source") or "": _translation(m) for m in messages}
+
+
+def _translation(message: ElementTree.Element) -> str:
+    """The words of a message; several forms in lines of their own, "" where one is missing."""
+    forms = [form.text or "" for form in message.iter("numerusform")]
+    if forms:
+        return "\n".join(forms) if all(forms) else ""
+    return message.findtext("translation") or ""
 
 
 def write(language: str, translations: dict[str, str]) -> None:
@@ -199,13 +212,22 @@ def write(language: str, translations: dict[str, str]) -> None:
             message = ElementTree.SubElement(context, "message")
             ElementTree.SubElement(message, "source").text = source
             target = ElementTree.SubElement(message, "translation")
-            target.text = translations[source]
+            _fill(message, target, source, translations[source])
             if not translations[source]:
                 target.set("type", "unfinished")
     ElementTree.indent(root, " ")
     path = FOLDER / f"floorcast_{language}.ts"
     body = ElementTree.tostring(root, encoding="unicode")
     path.write_text(f'<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n{body}\n', encoding="utf-8")
+
+
+def _fill(message: ElementTree.Element, target: ElementTree.Element, source: str, text: str) -> None:
+    if not _COUNTS.search(source):
+        target.text = text
+        return
+    message.set("numerus", "yes")
+    for form in text.split("\n") if text else ("", ""):
+        ElementTree.SubElement(target, "numerusform").text = form
 
 
 def build(language: str) -> None:

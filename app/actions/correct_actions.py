@@ -194,7 +194,7 @@ def relabel(workbench: Workbench, region: Ids = None, label: str | None = None) 
     if not label.strip():
         raise UsageError("A label is a word, like room or corridor.")
     said = (LabelRegion(region_at(workbench, r), label.strip()) for r in chosen)
-    workbench.correct(f"Label {names_of('region', chosen)} {label.strip()}", *said)
+    workbench.correct(f"Label {names_of('region', chosen)} as {label.strip()}", *said)
 
 
 def rename(workbench: Workbench, region: str | None = None, name: str | None = None) -> None:

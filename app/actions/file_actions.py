@@ -82,8 +82,11 @@ def save_as(workbench: Workbench, path: str | Path | None = None) -> None:
         save(workbench, target if target.suffix else target.with_suffix(PROJECT_SUFFIX))
 
 
-def export(workbench: Workbench, path: str | Path | None = None) -> None:
-    """Write the plan in the format that the file's suffix names; a job, as large plans take their time."""
+def export(workbench: Workbench, path: str | Path | None = None, suffix: str = ".svg") -> None:
+    """Write the plan in the format that the file's suffix names; a job, as large plans take their time.
+
+    :param suffix: the format that is offered where no path is given.
+    """
     from floorplan_core.files import output_file
     from floorplan_core.plugins import default_registry
 
@@ -93,7 +96,7 @@ def export(workbench: Workbench, path: str | Path | None = None) -> None:
     target = (
         Path(path)
         if path is not None
-        else workbench.ui.ask_save("Export the plan", "export", f"{Path(workbench.plan.source).stem}.svg")
+        else workbench.ui.ask_save("Export the plan", "export", f"{Path(workbench.plan.source).stem}{suffix}")
     )
     if target is None:
         return

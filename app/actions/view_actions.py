@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 WORKSPACES = ("inspect", "plan", "run")
-MARGIN = 1.4  # of the plan's extent: dimensions and legends stand around it
+MARGIN = 1.4  # of the plan's extent, where the size of its pane is not known
+WALL = 0.3  # metres that walls stand out beyond the regions
+SMALLEST = 120.0  # pixels: in a smaller pane nothing can be fitted
 
 
 def fit(workbench: Workbench) -> None:
@@ -23,7 +25,18 @@ def fit(workbench: Workbench) -> None:
     boxes = [r.polygon.bounds for r in plan.regions]
     x0, y0 = min(b[0] for b in boxes), min(b[1] for b in boxes)
     x1, y1 = max(b[2] for b in boxes), max(b[3] for b in boxes)
-    workbench.view.set(centre=((x0 + x1) / 2, (y0 + y1) / 2), span=MARGIN * max(y1 - y0, (x1 - x0) * 0.75))
+    span = _span(workbench.view.room, x1 - x0 + 2 * WALL, y1 - y0 + 2 * WALL)
+    workbench.view.set(centre=((x0 + x1) / 2, (y0 + y1) / 2), span=span)
+
+
+def _span(room: tuple[float, float] | None, width: float, height: float) -> float:
+    """Metres across the shorter side of a pane of ``room`` pixels in which a plan and its dimensions fit."""
+    from floorcast_app.layers.dimensions import writing_around
+
+    if room is None or min(room) < SMALLEST:
+        return MARGIN * max(height, width * 0.75)
+    around = 2 * writing_around(min(room))
+    return min(room) * max(width / (room[0] - around), height / (room[1] - around))
 
 
 def zoom(workbench: Workbench, kind: str | None = None, id: str | None = None) -> None:

@@ -12,6 +12,10 @@ from floorplan_core.exporters.svg_labels import is_rectangle
 
 SLIM = 1.8  # arms this much longer than wide get a width
 PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9)  # along the arm, in the order in which they are tried
+ROWS = {1: 24.0, 2: 46.0}  # pixels from the walls to the rows of dimensions
+TIGHT = 14.0  # pixels to the one row that a small pane shows
+SMALL_PANE = 380.0  # pixels of its shorter side
+WRITING = 15.0  # pixels beyond a row that its text and ticks take
 KEEP_OFF = 0.35  # metres around a width inside the plan
 
 
@@ -41,6 +45,18 @@ class DimensionsLayer:
 
     rows: tuple[Row, ...]
     widths: tuple[Width, ...]
+
+
+def row_gap(level: int, shorter: float) -> float | None:
+    """Pixels from the walls to a row in a pane whose shorter side has ``shorter`` pixels; None: not shown."""
+    if shorter >= SMALL_PANE:
+        return ROWS[level]
+    return TIGHT if level == 1 else None
+
+
+def writing_around(shorter: float) -> float:
+    """Pixels that dimensions need around the plan in such a pane."""
+    return (ROWS[2] if shorter >= SMALL_PANE else TIGHT) + WRITING
 
 
 def dimensions_layer(source: PlanSource) -> DimensionsLayer:

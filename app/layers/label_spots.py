@@ -45,6 +45,19 @@ def label_spot(polygon: Any, keep_off: Sequence[Any] = ()) -> Spot:
     return Spot(upright.x, upright.y, upright.height, upright.width, True)
 
 
+def number_spot(polygon: Any, keep_off: Sequence[Any] = ()) -> Spot:
+    """The middle of the widest place: a square of room for a number, never turned."""
+    free = _free(polygon, keep_off)
+    ends = shapely.get_coordinates(_widest(free))
+    side = float(np.hypot(*(ends[1] - ends[0]))) * np.sqrt(2)
+    return Spot(float(ends[0, 0]), float(ends[0, 1]), side, side, False)
+
+
+def _widest(free: Any) -> Any:
+    """A radius of the largest circle inside."""
+    return shapely.maximum_inscribed_circle(free, tolerance=max(free.length / 500, 1e-6))
+
+
 def _free(polygon: Any, keep_off: Sequence[Any]) -> Any:
     near = [shape for shape in keep_off if polygon.intersects(shape)]
     if not near:
@@ -57,8 +70,8 @@ def _candidates(free: Any, polygon: Any) -> Float:
     """(K, 2) the centroid, the pole of inaccessibility, a grid and the middles of the arms, inside."""
     corners = shapely.get_coordinates(polygon)
     grid = np.stack(np.meshgrid(_ticks(corners[:, 0]), _ticks(corners[:, 1])), axis=-1).reshape(-1, 2)
-    circle = shapely.maximum_inscribed_circle(free, tolerance=max(free.length / 500, 1e-6))
-    spots = np.vstack([shapely.get_coordinates(polygon.centroid), shapely.get_coordinates(circle)[:1], grid])
+    circle = shapely.get_coordinates(_widest(free))[:1]
+    spots = np.vstack([shapely.get_coordinates(polygon.centroid), circle, grid])
     inside = spots[shapely.contains_xy(free, spots)]
     home = shapely.get_coordinates(polygon.centroid)[0]
     near = np.argsort(np.round(np.hypot(*(inside - home).T), 6), kind="stable")

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorcast_app.layers.label_spots import Spot, label_spot
+from floorcast_app.layers.label_spots import Spot, label_spot, number_spot
 from floorcast_app.layers.source import PlanSource, Rings, rings
 from floorcast_app.selection import Item
 from floorplan_core.exporters.svg_labels import display_name, is_rectangle
@@ -29,6 +29,7 @@ class RegionShape:
     area: float  # m2
     clear: tuple[float, float] | None  # metres, width and depth of a rectangle
     spot: Spot  # where the text goes
+    seat: Spot  # where its number goes where there is room for no more
 
 
 @dataclass(frozen=True)
@@ -58,4 +59,5 @@ def _shape(region: Region, source: PlanSource, swept: list[object]) -> RegionSha
         region.area,
         (x1 - x0, y1 - y0) if is_rectangle(region) else None,
         label_spot(region.polygon, swept),
+        number_spot(region.polygon, swept),
     )

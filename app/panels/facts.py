@@ -12,7 +12,7 @@ from typing import Any
 
 from floorcast_app.actions.measure_actions import check_row
 from floorcast_app.format import angle, area, count, length, number, percent, seconds, small
-from floorcast_app.panels.by_hand import hand_note, machine_note
+from floorcast_app.panels.by_hand import hand_note, machine_said
 from floorcast_app.panels.item_columns import facing_word
 from floorcast_app.selection import Item
 from floorcast_app.workbench import Workbench
@@ -86,8 +86,9 @@ def portrait(workbench: Workbench, item: Item | None, words: Words) -> Portrait 
     if not hand:
         return made
     note = Fact(words("By hand"), hand)
-    machine = machine_note(workbench, item, words)
-    section = Section(words("Correction"), (note, *((Fact(words("Machine"), machine),) if machine else ())))
+    said = machine_said(workbench, item)
+    facts = (note, Fact(words("Machine had said"), said)) if said else (note,)
+    section = Section(words("Correction"), facts)
     return Portrait(
         made.title, made.subtitle, (*made.chips, (words("Corrected"), "chip-good")), (section, *made.sections)
     )

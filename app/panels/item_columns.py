@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from floorcast_app.format import area, length, number, percent, small
+from floorcast_app.panels.by_hand import by_hand, hand_note
 from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane, Region, loa_band
 
 Words = Callable[[str], str]  # translates a word
@@ -116,7 +117,19 @@ PLANES = (
     ),
 )
 
-COLUMNS: dict[str, tuple[Column, ...]] = {"region": REGIONS, "door": DOORS, "plane": PLANES}
+CORRECTION = Column(  # the list adds what the machine had said
+    "Correction",
+    lambda thing: bool(by_hand(thing)),
+    lambda thing, u, words: hand_note(thing, words),
+    False,
+    "What was said by hand, and what the machine had said",
+)
+
+COLUMNS: dict[str, tuple[Column, ...]] = {
+    "region": (*REGIONS, CORRECTION),
+    "door": (*DOORS, CORRECTION),
+    "plane": (*PLANES, CORRECTION),
+}
 
 
 def things(plan: FloorPlan | None, kind: str) -> tuple[Region | Door | LayoutPlane, ...]:

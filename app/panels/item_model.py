@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor
 
 from floorcast_app import icons, theme
 from floorcast_app.panels.by_hand import by_hand, hand_note, is_locked, machine_note
-from floorcast_app.panels.item_columns import COLUMNS, Column, things
+from floorcast_app.panels.item_columns import COLUMNS, CORRECTION, Column, things
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
@@ -51,7 +51,7 @@ class ItemModel(QAbstractTableModel):
     def texts(self, column: Column) -> set[str]:
         """What stands in the first rows of a column, each text once."""
         units = self._workbench.view.look.units
-        return {column.text(thing, units, _words) for thing in self._things[:MOST_MEASURED]}
+        return {self._text(column, thing, units) for thing in self._things[:MOST_MEASURED]}
 
     def sort_keys(self, column: int) -> list[Any]:
         """What the rows are sorted by, made once: a sort compares each row a dozen times."""
@@ -67,7 +67,7 @@ class ItemModel(QAbstractTableModel):
         """All texts of a row, for the filter."""
         if not self._words:
             units = self._workbench.view.look.units
-            texts = [[c.text(t, units, _words) for c in self.columns] for t in self._things]
+            texts = [[self._text(c, t, units) for c in self.columns] for t in self._things]
             self._words = [" ".join(cells).casefold() for cells in texts]
         return self._words[row]
 
@@ -111,7 +111,7 @@ class ItemModel(QAbstractTableModel):
             return self._mark(thing, index.column(), role)
         column = self.columns[index.column() - OWN]
         if role == Qt.ItemDataRole.DisplayRole:
-            return column.text(thing, self._workbench.view.look.units, _words)
+            return self._text(column, thing, self._workbench.view.look.units)
         if role == SORT_ROLE:
             return column.key(thing)
         if role == Qt.ItemDataRole.TextAlignmentRole:
@@ -121,6 +121,13 @@ class ItemModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ForegroundRole and getattr(thing, "speculated", False):
             return QColor(theme.colours().muted)
         return None
+
+    def _text(self, column: Column, thing: Any, units: str) -> str:
+        text = column.text(thing, units, _words)
+        if column is not CORRECTION or not text:
+            return text
+        machine = machine_note(self._workbench, Item(self.kind, thing.id), tr)
+        return f"{text}. {machine}" if machine else text
 
     def _first(self, thing: Any, role: int) -> Any:
         """The first own column carries the pin of what a person corrected."""

@@ -19,6 +19,7 @@ from floorcast_app.workbench import Workbench
 
 TABS = {"region": "Regions", "door": "Doors", "plane": "Planes"}
 ROW_HEIGHT = 28  # px
+FILTER_HEIGHT = 28  # px: no higher than the tabs beside it
 ARROW_WIDTH = 16  # px of the arrow of the sorted column
 PIN_WIDTH = 22  # px of the pin of a corrected thing
 MARK_WIDTH = 30  # px of the columns with an eye and a lock
@@ -166,7 +167,8 @@ class ItemsPanel(Panel):
         self.search.textChanged.connect(self._filter)
         corner = QWidget()
         line = row(self.search)
-        line.setContentsMargins(0, 2, GRID, 2)
+        line.setContentsMargins(0, 0, GRID, 1)
+        self.search.setFixedHeight(FILTER_HEIGHT)
         corner.setLayout(line)
         self.tabs.setCornerWidget(corner)
         self.tabs.setDocumentMode(True)

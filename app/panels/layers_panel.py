@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from floorcast_app import icons, theme
 from floorcast_app.format import length
 from floorcast_app.panels.base import GRID, Panel, column, label, row, rule, scrolling
+from floorcast_app.panels.legend import Legend
 from floorcast_app.translation import tr
 from floorcast_app.view_state import LAYERS, POINT_COLOURS
 from floorcast_app.workbench import Workbench
@@ -42,6 +43,7 @@ FACINGS = (("N", 2, "north"), ("E", 0, "east"), ("S", 3, "south"), ("W", 1, "wes
 CUT_RANGE = (0.2, 6.0)  # metres above the floor
 CUT_STEPS = 100  # a metre
 CUT_DEFAULT = 2.2
+BAR = 12  # px that a scroll bar takes
 SECTION_INSET = 0.2  # of the plan's extent: a new section box shows that it cuts
 SECTION_FIELDS = ("x from", "y from", "x to", "y to")
 
@@ -74,9 +76,11 @@ class LayersPanel(Panel):
         self.section_on = QCheckBox(tr("Section box"))
         self.section = [self._section_spin(i) for i in range(4)]
         inner = QWidget()
-        self._fill(column(inner, GRID, GRID))
+        self._fill(column(inner, 2 * GRID, GRID))
         outer = column(self, 0, 0)
-        outer.addWidget(scrolling(inner))
+        area = scrolling(inner)
+        area.setMinimumWidth(inner.minimumSizeHint().width() + BAR)
+        outer.addWidget(area)
         self._connect_cut()
         self.listen(workbench.view.changed, workbench.plan_changed)
         self.listen(theme.changed)
@@ -122,6 +126,8 @@ class LayersPanel(Panel):
         self._section_rows = QWidget()
         self._section_rows.setLayout(grid)
         layout.addWidget(self._section_rows)
+        layout.addWidget(rule())
+        layout.addWidget(Legend(self.workbench))
         layout.addStretch(1)
 
     def _eye(self, layer: str) -> EyeButton:
@@ -136,7 +142,7 @@ class LayersPanel(Panel):
         box.addItems([tr(COLOUR_TEXTS[c]) for c in POINT_COLOURS])
         box.setToolTip(tr("What the points are coloured by"))
         box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        box.setMinimumContentsLength(5)
+        box.setMinimumContentsLength(4)
         box.activated.connect(lambda i: self.workbench.try_run(f"view.colour_{POINT_COLOURS[i]}"))
         return box
 
@@ -145,6 +151,7 @@ class LayersPanel(Panel):
         button.setText(tr(text))
         button.setCheckable(True)
         button.setProperty("role", "facing")
+        button.setProperty("axis", "ns" if text in "NS" else "ew")  # in the colours of the planes
         button.setToolTip(tr("Planes that face {facing}").format(facing=tr(word)))
         button.clicked.connect(
             lambda: self.workbench.view.set(facings=self.workbench.view.look.facings ^ {value})

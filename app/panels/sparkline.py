@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -9,7 +10,10 @@ from PySide6.QtGui import QBrush, QColor, QMouseEvent, QPainter, QPaintEvent, QP
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app import theme
+from floorcast_app.format import area, number
+from floorcast_app.translation import tr
 
+ROOMY = 80  # px: a lower one shows its shape only
 MARGIN = 8.0  # px left and right, as much as half a slider's handle
 
 
@@ -22,6 +26,7 @@ class Sparkline(QWidget):
         super().__init__()
         self.values: tuple[tuple[float, float, float], ...] = ()
         self.at = -1
+        self.units = "m"
         self.setMinimumHeight(24)
 
     def sizeHint(self) -> QSize:
@@ -51,13 +56,15 @@ class Sparkline(QWidget):
         holds = theme.colours()
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        top = max(seen + predicted for _, seen, predicted in self.values) or 1.0
+        top = self._top()
         seen = [s for _, s, _ in self.values]
         both = [s + p for _, s, p in self.values]
         self._area(painter, both, seen, top, QBrush(QColor(holds.predicted), Qt.BrushStyle.BDiagPattern))
         self._area(painter, seen, [0.0] * len(seen), top, QBrush(QColor(holds.accent_soft)))
         painter.setPen(QPen(QColor(holds.accent), 1.5))
         painter.drawPolyline(self._line(seen, top))
+        if self.height() >= ROOMY:
+            self._scale(painter, top)
         if 0 <= self.at < len(self.values):
             x = self.x_of(self.at)
             painter.setPen(QPen(QColor(holds.text), 1))
@@ -66,6 +73,38 @@ class Sparkline(QWidget):
             painter.setBrush(QColor(holds.accent))
             painter.drawEllipse(QRectF(x - 3, y - 3, 6, 6))
         painter.end()
+
+    def _top(self) -> float:
+        return max(seen + predicted for _, seen, predicted in self.values) or 1.0
+
+    def _scale(self, painter: QPainter, top: float) -> None:
+        """Round areas as fine lines, with their numbers; what the two fills mean."""
+        holds = theme.colours()
+        painter.setFont(theme.font(11))
+        step = _round(top / 3)
+        for k in range(1, int(top / step) + 1):
+            y = self._y(k * step, top)
+            painter.setPen(QPen(QColor(holds.line_strong), 1, Qt.PenStyle.DotLine))
+            painter.drawLine(QPointF(MARGIN, y), QPointF(self.width() - MARGIN, y))
+            painter.setPen(QColor(holds.muted))
+            painter.drawText(QPointF(MARGIN + 4, y + 13), self._area_text(k * step))
+        x = self.width() - 2 * MARGIN
+        for text, brush in (
+            (tr("predicted"), QBrush(QColor(holds.predicted), Qt.BrushStyle.BDiagPattern)),
+            (tr("seen"), QBrush(QColor(holds.accent_soft))),
+        ):
+            wide = painter.fontMetrics().horizontalAdvance(text)
+            x -= wide
+            painter.setPen(QColor(holds.muted))
+            painter.drawText(QPointF(x, self.height() - 12), text)
+            x -= 22
+            painter.setPen(QPen(QColor(holds.line_strong), 1))
+            painter.setBrush(brush)
+            painter.drawRect(QRectF(x, self.height() - 21, 16, 10))
+            x -= 16
+
+    def _area_text(self, m2: float) -> str:
+        return area(m2, self.units) if self.units != "m" else f"{number(m2, ',.0f')} m²"
 
     def _area(
         self, painter: QPainter, upper: Sequence[float], lower: Sequence[float], top: float, brush: QBrush
@@ -85,3 +124,9 @@ class Sparkline(QWidget):
         if self.values:
             x = event.position().x()
             self.picked.emit(min(range(len(self.values)), key=lambda i: abs(self.x_of(i) - x)))
+
+
+def _round(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20, … that is not below ``value``."""
+    power = 10.0 ** math.floor(math.log10(max(value, 1e-9)))
+    return next(f * power for f in (1.0, 2.0, 5.0, 10.0) if f * power >= value * (1 - 1e-9))

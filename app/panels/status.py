@@ -6,10 +6,10 @@ import math
 
 from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
 
-from floorcast_app.format import angle, count, length, number, percent, seconds
+from floorcast_app.format import angle, length, number, percent, seconds
 from floorcast_app.panels.base import listener_of
 from floorcast_app.panels.progress_strip import ProgressStrip
-from floorcast_app.translation import tr
+from floorcast_app.translation import tr, tr_n
 from floorcast_app.workbench import Workbench
 
 
@@ -27,6 +27,7 @@ class StatusBar(QStatusBar):
         self.addWidget(self.pointer)
         self.addWidget(self.progress)
         for piece in (self.frame, self.points, self.counts, self.ready):
+            piece.setMinimumWidth(1)  # rather cut short for a moment than a window that grows
             self.addPermanentWidget(piece)
         self._connect()
         self._refresh()
@@ -38,6 +39,7 @@ class StatusBar(QStatusBar):
             (w.plan_changed, self._refresh),
             (w.points_changed, self._refresh),
             (w.view.changed, self._refresh),
+            (w.jobs.started, self._refresh),
             (w.jobs.ended, self._refresh),
         ):
             event.connect(listener_of(self, then, event))
@@ -54,17 +56,19 @@ class StatusBar(QStatusBar):
     def _refresh(self, *_: object) -> None:
         plan, points = self._workbench.plan, len(self._workbench.points)
         shown = plan.point_count if plan is not None else points
-        self.points.setText(tr("{n} points").format(n=count(shown)) if shown else "")
+        self.points.setText(tr_n("%Ln point(s)", shown) if shown else "")
+        working = self._workbench.jobs.running  # its progress takes the place of what was
         for piece in (self.frame, self.counts, self.ready):
-            piece.setVisible(plan is not None)
+            piece.setVisible(plan is not None and not working)
         if plan is None:
             return
         yaw, support = math.degrees(plan.frame.yaw), plan.frame.support
         self.frame.setText(tr("frame {yaw} (support {share})").format(yaw=angle(yaw), share=percent(support)))
-        self.counts.setText(
-            tr("{planes} planes · {regions} regions · {doors} doors").format(
-                planes=len(plan.all_planes), regions=len(plan.regions), doors=len(plan.doors)
-            )
+        counts = (
+            tr_n("%Ln plane(s)", len(plan.all_planes)),
+            tr_n("%Ln region(s)", len(plan.regions)),
+            tr_n("%Ln door(s)", len(plan.doors)),
         )
+        self.counts.setText(" · ".join(counts))
         took = sum(s for stage, s in plan.seconds.items() if stage not in ("total", "read", "export"))
         self.ready.setText(tr("ready in {time}").format(time=seconds(plan.seconds.get("total", took))))

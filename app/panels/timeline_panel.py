@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, QTimer
-from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QSlider, QToolButton, QVBoxLayout, QWidget
 
 from floorcast_app import icons, theme
 from floorcast_app.format import area, length
 from floorcast_app.panels.base import GRID, Panel, column, label, row
 from floorcast_app.panels.sparkline import Sparkline
 from floorcast_app.run_replay import Snapshot
-from floorcast_app.translation import tr
+from floorcast_app.translation import tr, tr_n
 from floorcast_app.workbench import Workbench
 
 FRAME = 700  # ms that a moment stays while the run is played
@@ -33,7 +33,10 @@ class TimelinePanel(Panel):
         self.slider.valueChanged.connect(self.show_moment)
         self.clock = label("", "changed")
         self.clock.setMinimumWidth(72)
-        self.facts = QLabel()
+        self.end = label("", "muted")  # when the run ends
+        self.facts = label("", "small")
+        self.facts.setContentsMargins(GRID, 0, GRID, 0)
+        self.facts.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.spark = Sparkline()
         self.spark.picked.connect(self.slider.setValue)
         self.whole = QPushButton(tr("Whole survey"))
@@ -77,13 +80,14 @@ class TimelinePanel(Panel):
     # ---- inside -----------------------------------------------------------------------------------------
 
     def _lay_out(self) -> None:
-        top = row(self.play, self.clock, self.slider, self.facts, self.whole, gap=GRID)
+        top = row(self.play, self.clock, self.slider, self.end, self.whole, gap=GRID)
         top.setStretch(2, 1)
         self._run = QWidget()
         run = QVBoxLayout(self._run)
         run.setContentsMargins(GRID, 4, GRID, 4)
         run.setSpacing(2)
         run.addLayout(top)
+        run.addWidget(self.facts)
         run.addWidget(self.spark, 1)
         self._empty = QWidget()
         empty = row(self.replay, self.hint, gap=2 * GRID)
@@ -112,6 +116,8 @@ class TimelinePanel(Panel):
         self.clock.setText(_clock(moment.time))
         self.facts.setText(self._facts(moment))
         self.whole.setEnabled(self.at >= 0)
+        self.spark.units = self.workbench.view.look.units
+        self.end.setText(_clock(moments[-1].time))
         self.spark.show_values([(m.time, m.seen, m.predicted) for m in moments], at)
 
     def _facts(self, moment: Snapshot) -> str:
@@ -119,7 +125,7 @@ class TimelinePanel(Panel):
         path = tr("path {length}").format(length=length(moment.path_length, units))
         if moment.plan is None:
             return f"{path} · {tr('no plan yet')}"
-        regions = tr("regions {n}").format(n=len(moment.plan.regions))
+        regions = tr_n("%Ln region(s)", len(moment.plan.regions))
         seen = tr("seen {area}").format(area=area(moment.seen, units))
         predicted = tr("predicted {area}").format(area=area(moment.predicted, units))
         return " · ".join((path, regions, seen, predicted))

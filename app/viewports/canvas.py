@@ -36,7 +36,7 @@ from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
 from floorcast_app.viewports.plan_checks import check_at, paint_checks
-from floorcast_app.viewports.plan_floor_views import DimensionsView
+from floorcast_app.viewports.plan_floor_views import DimensionsView, NamesView
 from floorcast_app.viewports.plan_frame import BODY, Frame, colour, draw_text
 from floorcast_app.viewports.plan_layers import LAYER_KINDS, LayerView, paint_layers
 from floorcast_app.viewports.plan_overlay import (
@@ -244,11 +244,13 @@ class PlanCanvas(QWidget):
                 paint_item(painter, frame, source, item, True)
         if interactive and selection.hovered is not None and selection.hovered.kind in self.lit:
             paint_item(painter, frame, source, selection.hovered, False)
-        paint_checks(painter, frame, self.workbench)
+        views = self._drawing.views
+        names = view.blocks(frame) if isinstance(view := views.get("names"), NamesView) else {}
+        paint_checks(painter, frame, self.workbench, tuple(names.values()))
         if self.pins:
             corrected = tuple(Item(kind, id) for kind, id in getattr(source.plan, "corrected", ()))
-            paint_pins(painter, frame, source, corrected)
-        shown = self._drawing.views.get("dimensions") if "dimensions" in frame.look.layers else None
+            paint_pins(painter, frame, source, corrected, names)
+        shown = views.get("dimensions") if "dimensions" in frame.look.layers else None
         paint_scale(painter, frame, source, shown.model.rows if isinstance(shown, DimensionsView) else ())
         paint_compass(painter, frame, source)
         if interactive:

@@ -6,14 +6,24 @@ import math
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
-from PySide6.QtGui import QImage, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QImage,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QToolButton, QWidget
 
 from floorcast_app import format, theme
 from floorcast_app.layers.evidence import EvidenceLayer, evidence_layer
 from floorcast_app.selection import Item
 from floorcast_app.theme import Colours
-from floorcast_app.translation import tr
+from floorcast_app.translation import tr, tr_n
 from floorcast_app.viewports.evidence_tracks import (
     paint_gradient,
     paint_histogram,
@@ -37,7 +47,8 @@ from floorcast_app.viewports.plan_observed_views import plane_colour
 from floorcast_app.workbench import Workbench
 from floorplan_core.model import Door
 
-LEFT, RIGHT, TOP, BOTTOM, GAP = 44.0, 14.0, 44.0, 34.0, 10.0  # pixels around and between the tracks
+LEFT, RIGHT, TOP, BOTTOM, GAP = 44.0, 14.0, 52.0, 34.0, 10.0  # pixels around and between the tracks
+EDGE = 16.0  # pixels left of the title
 TICKS = 70.0  # pixels that a metre tick takes at least
 AROUND = 3.0  # metres shown beside a selected door
 NEAREST = 0.5  # metres: closer in there is nothing to see
@@ -62,6 +73,7 @@ class EvidenceView(QWidget):
         self._last = QPointF()
         self.other = QToolButton(self)
         self.other.setText(tr("Other face"))
+        self.other.setProperty("role", "small")
         self.other.setToolTip(tr("Show the evidence on the other face of the wall"))
         self.other.clicked.connect(self.turn)
         w = workbench
@@ -173,16 +185,12 @@ class EvidenceView(QWidget):
         units, axis = self.workbench.view.look.units, evidence.facing.axis
         facing = {"EAST": tr("east"), "WEST": tr("west"), "NORTH": tr("north"), "SOUTH": tr("south")}
         text = tr("Plane {id} faces {facing}").format(id=evidence.plane, facing=facing[evidence.facing.name])
-        painter.setFont(font(BODY, 600))
-        painter.setPen(colour(plane_colour(c, axis)))
-        painter.drawText(QPointF(LEFT, 18), text)
-        painter.setFont(font(SMALL))
-        painter.setPen(colour(c.muted))
-        count = len(evidence.doors)
-        doors = tr("1 door") if count == 1 else tr("{count} doors").format(count=count)
-        painter.drawText(
-            QPointF(LEFT, 34), f"{'xy'[axis]} = {format.length(evidence.offset, units)} · {doors}"
-        )
+        room = area.width() - EDGE - RIGHT
+        _write(painter, text, (EDGE, 18), room, font(BODY, 600), colour(plane_colour(c, axis)))
+        doors = tr_n("%Ln door(s)", len(evidence.doors))
+        text = f"{'xy'[axis]} = {format.length(evidence.offset, units)} · {doors}"
+        taken = self.other.width() + 8 if self.other.isVisibleTo(self) else 0
+        _write(painter, text, (EDGE, 36), room - taken, font(SMALL), colour(c.muted))
 
     def _paint_doors(
         self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
@@ -323,7 +331,7 @@ class EvidenceView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         size = self.other.sizeHint()
-        self.other.setGeometry(self.width() - size.width() - 12, 8, size.width(), size.height())
+        self.other.setGeometry(self.width() - size.width() - round(RIGHT), 22, size.width(), size.height())
 
     def door_at(self, position: QPointF) -> Item | None:
         """The detection at a pixel of this widget."""
@@ -343,3 +351,13 @@ class EvidenceView(QWidget):
         track = self._tracks(QRectF(self.rect()))[0]
         low, high = self._shown
         return low + (position.x() - track.left()) / track.width() * (high - low)
+
+
+def _write(
+    painter: QPainter, text: str, at: tuple[float, float], room: float, face: QFont, ink: QColor
+) -> None:
+    """One line from ``at``, its end left out where there is no room for it."""
+    painter.setFont(face)
+    painter.setPen(ink)
+    shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, room)
+    painter.drawText(QPointF(*at), shown)

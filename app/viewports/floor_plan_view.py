@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from PySide6.QtGui import QResizeEvent
+
 from floorcast_app.viewports.canvas import PlanCanvas
 
 
@@ -11,3 +13,8 @@ class FloorPlanView(PlanCanvas):
     kinds = ("regions", "walls", "doors", "names", "dimensions")
     pins = True
     empty = "The floor plan appears here once a survey is planned."
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """What fits is fitted to this pane: its dimensions need room."""
+        super().resizeEvent(event)
+        self.workbench.view.room = (float(self.width()), float(self.height()))

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
+from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 
 from floorcast_app.item_bounds import check_ends
@@ -28,8 +30,8 @@ def check_at(workbench: Workbench, x: float, y: float, reach: float) -> Item | N
     return None
 
 
-def paint_checks(painter: QPainter, frame: Frame, workbench: Workbench) -> None:
-    """All measurements, selected and hovered ones lit up."""
+def paint_checks(painter: QPainter, frame: Frame, workbench: Workbench, taken: Sequence[QRectF]) -> None:
+    """All measurements, selected and hovered ones lit up; their lengths beside what is ``taken``."""
     if LAYER not in frame.look.layers:
         return
     c, selection = frame.colours, workbench.selection
@@ -38,4 +40,5 @@ def paint_checks(painter: QPainter, frame: Frame, workbench: Workbench) -> None:
         if ends is None or not frame.shows("check", check.id):
             continue
         tone = c.selection if item in selection.items else c.accent
-        paint_check(painter, frame, ends, math.dist(*ends), c.hover if item == selection.hovered else tone)
+        tone = c.hover if item == selection.hovered else tone
+        paint_check(painter, frame, ends, math.dist(*ends), tone, taken)

@@ -8,7 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath
 
 from floorcast_app import format
-from floorcast_app.layers.dimensions import DimensionsLayer, Row, Width
+from floorcast_app.layers.dimensions import ROWS, DimensionsLayer, Row, Width, row_gap
+from floorcast_app.layers.label_spots import Spot
 from floorcast_app.layers.regions import RegionShape, RegionsLayer
 from floorcast_app.layers.walls import DoorShape, DoorsLayer, WallsLayer
 from floorcast_app.translation import tr_text
@@ -29,7 +30,6 @@ from floorcast_app.viewports.plan_frame import (
 from floorplan_core.exporters.door_symbols import Leaf
 
 LEADING = 1.3  # line height over text size
-ROWS = {1: 24.0, 2: 46.0}  # pixels from the walls to the rows of dimensions
 TICK = 4.0  # pixels, half a tick
 STUB = 8.0  # pixels of extension line
 RAISE = 9.0  # pixels from a dimension's line to the middle of its text
@@ -71,18 +71,30 @@ class NamesView:
             if frame.shows("region", shape.item.id):
                 self._paint(painter, frame, shape)
 
+    def blocks(self, frame: Frame) -> dict[str, QRectF]:
+        """The ground of each name in pixels, by region; none for a region without one."""
+        made = {}
+        for shape in self._shapes:
+            lines, spot = fitting_lines(frame, shape)
+            if lines and frame.shows("region", shape.item.id):
+                size = max(text_size(*line)[0] for line in lines), sum(p * LEADING for _, p, _ in lines)
+                wide, tall = size[::-1] if spot.turned else size
+                x, y = frame.camera.point(spot.x, spot.y)
+                made[shape.item.id] = QRectF(x - wide / 2, y - tall / 2, wide, tall)
+        return made
+
     def _paint(self, painter: QPainter, frame: Frame, shape: RegionShape) -> None:
-        lines = fitting_lines(frame, shape)
+        lines, spot = fitting_lines(frame, shape)
         # Text on hatching gets ground of its own.
         halo = colour(theme_tone(frame, shape.label), 0.8) if shape.predicted else None
         total = sum(pixels * LEADING for _, pixels, _ in lines)
-        x, y = frame.camera.point(shape.spot.x, shape.spot.y)
+        x, y = frame.camera.point(spot.x, spot.y)
         down = -total / 2
         for text, pixels, weight in lines:
             middle = down + pixels * LEADING / 2
-            at = (x + middle, y) if shape.spot.turned else (x, y + middle)
-            ink = frame.colours.text if pixels > SMALL else frame.colours.muted
-            draw_text(painter, text, at, pixels, colour(ink), weight, shape.spot.turned, halo)
+            at = (x + middle, y) if spot.turned else (x, y + middle)
+            ink = frame.colours.text if weight > 400 or pixels > SMALL else frame.colours.muted
+            draw_text(painter, text, at, pixels, colour(ink), weight, spot.turned, halo)
             down += pixels * LEADING
 
 
@@ -138,8 +150,9 @@ class DimensionsView:
     def paint(self, painter: QPainter, frame: Frame) -> None:
         """What has no room for its number is left out."""
         for row in self.model.rows:
-            for span in row.spans:
-                _paint_span(painter, frame, row, span.start, span.end)
+            gap = row_gap(row.level, min(frame.camera.width, frame.camera.height))
+            for span in row.spans if gap is not None else ():
+                _paint_span(painter, frame, row, gap or 0.0, span.start, span.end)
         for width in self.model.widths:
             _paint_width(painter, frame, width)
 
@@ -150,8 +163,8 @@ def theme_tone(frame: Frame, label: str) -> str:
     return {"room": c.room, "corridor": c.corridor}.get(label, c.other)
 
 
-def fitting_lines(frame: Frame, shape: RegionShape) -> list[tuple[str, int, int]]:
-    """(text, pixels, weight) of as many lines as have room; else the number alone, else nothing."""
+def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int, int]], Spot]:
+    """(text, pixels, weight) of the lines that have room, else of the number, else none; and where."""
     units, scale = frame.look.units, frame.camera.scale
     lines = [(tr_text(shape.name), NAME, 600), (format.area(shape.area, units), BODY, 400)]
     if shape.clear is not None:
@@ -162,9 +175,13 @@ def fitting_lines(frame: Frame, shape: RegionShape) -> list[tuple[str, int, int]
     for n in range(len(lines), 0, -1):
         wide = max(text_size(*line)[0] for line in lines[:n])
         if wide + AIR <= width and sum(p * LEADING for _, p, _ in lines[:n]) <= height:
-            return lines[:n]
-    short = (shape.short, BODY, 600)
-    return [short] if text_size(*short)[0] <= width and height >= BODY else []
+            return lines[:n], shape.spot
+    room = shape.seat.width * scale
+    for pixels in (BODY, SMALL):
+        short = (shape.short, pixels, 600)
+        if text_size(*short)[0] <= room and pixels <= room:
+            return [short], shape.seat
+    return [], shape.seat
 
 
 def _accent(frame: Frame, tone: str) -> str:
@@ -219,13 +236,13 @@ def _swing_path(leaves: tuple[Leaf, ...]) -> QPainterPath:
     return path
 
 
-def _paint_span(painter: QPainter, frame: Frame, row: Row, start: float, end: float) -> None:
+def _paint_span(painter: QPainter, frame: Frame, row: Row, gap: float, start: float, end: float) -> None:
     """One length of a row."""
     text = format.length(end - start, frame.look.units).removesuffix(" m")
     room = (end - start) * frame.camera.scale
     if text_size(text, SMALL)[0] + AIR > room:
         return
-    a, b = (_beside(frame, row, v) for v in (start, end))
+    a, b = (_beside(frame, row, gap, v) for v in (start, end))
     painter.setPen(pen(frame.colours.muted, 1.0))
     painter.drawLine(QPointF(*a), QPointF(*b))
     out = (0.0, float(-row.sign)) if row.axis else (float(row.sign), 0.0)
@@ -235,17 +252,19 @@ def _paint_span(painter: QPainter, frame: Frame, row: Row, start: float, end: fl
         painter.drawLine(*stub)
         _tick(painter, frame, x, y)
     x, y = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
-    at = (x, y - RAISE) if row.axis else (x - RAISE, y)
+    inwards = -row.sign if row.axis else row.sign  # text above or left of a line may lie towards the walls
+    away = RAISE if inwards > 0 and gap < ROWS[1] else -RAISE  # where that is tight, it lies outside
+    at = (x, y + away) if row.axis else (x + away, y)
     draw_text(painter, text, at, SMALL, colour(frame.colours.text), 400, not row.axis)
 
 
-def _beside(frame: Frame, row: Row, along: float) -> tuple[float, float]:
+def _beside(frame: Frame, row: Row, gap: float, along: float) -> tuple[float, float]:
     """The place of a coordinate along a row, pixels."""
     if row.axis:
         x, y = frame.camera.point(along, row.edge)
-        return x, y - row.sign * ROWS[row.level]
+        return x, y - row.sign * gap
     x, y = frame.camera.point(row.edge, along)
-    return x + row.sign * ROWS[row.level], y
+    return x + row.sign * gap, y
 
 
 def _paint_width(painter: QPainter, frame: Frame, width: Width) -> None:

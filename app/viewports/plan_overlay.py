@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -32,6 +33,7 @@ from floorplan_core.model.layout import turned
 
 COMPASS = 15.0  # pixels, radius
 CROSS = 9.0  # pixels, half the linked cursor
+PLACES = (0.5, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # along a measurement: where its length is written
 PIN = 5.0  # pixels, radius of a pin's head
 TICK = 5.0
 GRIPPED = 24.0  # pixels that a thing needs for handles at its ends
@@ -67,8 +69,15 @@ def draw_shifted(painter: QPainter, frame: Frame, picture: QPixmap, taken: Camer
     painter.drawPixmap(QRectF(x0, y0, x1 - x0, y1 - y0), picture, QRectF(picture.rect()))
 
 
-def paint_check(painter: QPainter, frame: Frame, ends: tuple[Point, Point], metres: float, tone: str) -> None:
-    """A measurement: a line with ticks and its length."""
+def paint_check(
+    painter: QPainter,
+    frame: Frame,
+    ends: tuple[Point, Point],
+    metres: float,
+    tone: str,
+    taken: Sequence[QRectF] = (),
+) -> None:
+    """A measurement: a line with ticks and its length, beside what is ``taken`` where the line is long."""
     a, b = (QPointF(*frame.camera.point(*end)) for end in ends)
     painter.setPen(pen(tone, 1.6))
     painter.drawLine(a, b)
@@ -77,21 +86,34 @@ def paint_check(painter: QPainter, frame: Frame, ends: tuple[Point, Point], metr
     for end in (a, b):
         painter.drawLine(end - across_, end + across_)
     if math.hypot(b.x() - a.x(), b.y() - a.y()) > 2 * TICK:
-        middle = (a + b) / 2
         text = format.length(metres, frame.look.units)
         wide = text_size(text, SMALL, 600)[0] + 4 * TICK
         raised = 3 * TICK if math.hypot(b.x() - a.x(), b.y() - a.y()) < wide else 0.0
-        at = (middle.x(), middle.y() - raised)
+        x, y = _free_place(a, b, wide, taken)
+        at = (x, y - raised)
         draw_text(painter, text, at, SMALL, colour(tone), 600, False, colour(frame.colours.panel, 0.92))
 
 
-def paint_pins(painter: QPainter, frame: Frame, source: PlanSource, items: tuple[Item, ...]) -> None:
-    """A pin on everything that a person corrected."""
+def _free_place(a: QPointF, b: QPointF, wide: float, taken: Sequence[QRectF]) -> tuple[float, float]:
+    """The place on the line a-b, near its middle, where a text of this width hides no name."""
+    places = [a + (b - a) * share for share in PLACES]
+    boxes = [QRectF(p.x() - wide / 2, p.y() - 2 * TICK, wide, 4 * TICK) for p in places]
+    free = (p for p, box in zip(places, boxes, strict=True) if not any(box.intersects(t) for t in taken))
+    at = next(free, places[0])
+    return at.x(), at.y()
+
+
+def paint_pins(
+    painter: QPainter, frame: Frame, source: PlanSource, items: tuple[Item, ...], names: dict[str, QRectF]
+) -> None:
+    """A pin on everything that a person corrected; that of a region stands on its name."""
     for item in items:
         at = anchor(source, item)
         if at is None:
             continue
         x, y = frame.camera.point(*at)
+        if item.kind == "region" and item.id in names:
+            x, y = names[item.id].center().x(), names[item.id].top() - 1
         painter.setPen(pen(frame.colours.accent, 1.6))
         painter.drawLine(QPointF(x, y), QPointF(x, y - 2 * PIN))
         painter.setPen(pen(frame.colours.panel, 1.4))

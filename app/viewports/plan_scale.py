@@ -10,9 +10,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter
 
 from floorcast_app import format
-from floorcast_app.layers.dimensions import Row
+from floorcast_app.layers.dimensions import WRITING, Row, row_gap
 from floorcast_app.layers.source import PlanSource
-from floorcast_app.viewports.plan_floor_views import ROWS
 from floorcast_app.viewports.plan_frame import SMALL, Frame, colour, draw_text, pen, round_length, text_size
 
 Shapes = np.ndarray[tuple[int], np.dtype[np.object_]]  # shapely
@@ -20,7 +19,6 @@ Shapes = np.ndarray[tuple[int], np.dtype[np.object_]]  # shapely
 BAR, SHORT_BAR = 150.0, 70.0  # pixels that the scale bar may take, and where that hides something
 MARGIN = 16.0  # pixels from the edges
 AROUND, ABOVE, BELOW = 8.0, 24.0, 8.0  # pixels of its plate around the bar
-TEXT = 14.0  # pixels beyond a row of dimensions that its text and ticks take
 ROOMY = (520.0, 380.0)  # pixels: a pane of this size shows a bar whatever it hides
 
 
@@ -89,7 +87,10 @@ def _taken(frame: Frame, source: PlanSource, rows: Sequence[Row]) -> Shapes:
     """Shapes that the bar should not hide, metres."""
     shapes = [r.polygon for r in source.drawn.regions]
     for row in rows:
-        out = row.edge + row.sign * (ROWS[row.level] + TEXT) / frame.camera.scale
+        gap = row_gap(row.level, min(frame.camera.width, frame.camera.height))
+        if gap is None:
+            continue
+        out = row.edge + row.sign * (gap + WRITING) / frame.camera.scale
         low, high = sorted((row.edge, out))
         start, end = min(s.start for s in row.spans), max(s.end for s in row.spans)
         shapes.append(shapely.box(*((start, low, end, high) if row.axis else (low, start, high, end))))

@@ -3,9 +3,40 @@
 <TS version="2.1" language="de" sourcelanguage="en">
  <context>
   <name>Floorcast</name>
-  <message>
-   <source>1 door</source>
-   <translation>1 Tür</translation>
+  <message numerus="yes">
+   <source>%Ln door(s)</source>
+   <translation>
+    <numerusform>%Ln Tür</numerusform>
+    <numerusform>%Ln Türen</numerusform>
+   </translation>
+  </message>
+  <message numerus="yes">
+   <source>%Ln plane(s)</source>
+   <translation>
+    <numerusform>%Ln Ebene</numerusform>
+    <numerusform>%Ln Ebenen</numerusform>
+   </translation>
+  </message>
+  <message numerus="yes">
+   <source>%Ln point(s)</source>
+   <translation>
+    <numerusform>%Ln Punkt</numerusform>
+    <numerusform>%Ln Punkte</numerusform>
+   </translation>
+  </message>
+  <message numerus="yes">
+   <source>%Ln point(s) read so far</source>
+   <translation>
+    <numerusform>Bisher %Ln Punkt gelesen</numerusform>
+    <numerusform>Bisher %Ln Punkte gelesen</numerusform>
+   </translation>
+  </message>
+  <message numerus="yes">
+   <source>%Ln region(s)</source>
+   <translation>
+    <numerusform>%Ln Region</numerusform>
+    <numerusform>%Ln Regionen</numerusform>
+   </translation>
   </message>
   <message>
    <source>3D view</source>
@@ -472,6 +503,10 @@
    <translation>Korrektur einer driftenden Trajektorie (SL-LMS), bevor die Punkte zusammengesetzt werden.</translation>
   </message>
   <message>
+   <source>Corridor</source>
+   <translation>Flur</translation>
+  </message>
+  <message>
    <source>Corridor {0}</source>
    <translation>Flur {0}</translation>
   </message>
@@ -546,6 +581,10 @@
   <message>
    <source>Door {name}</source>
    <translation>Tür {name}</translation>
+  </message>
+  <message>
+   <source>Door, found shut</source>
+   <translation>Tür, geschlossen</translation>
   </message>
   <message>
    <source>Doors</source>
@@ -840,6 +879,10 @@
    <translation>Kontrollmaße</translation>
   </message>
   <message>
+   <source>Guessed side</source>
+   <translation>Geratene Seite</translation>
+  </message>
+  <message>
    <source>Guessed sides</source>
    <translation>Geratene Seiten</translation>
   </message>
@@ -1020,7 +1063,7 @@
    <translation>LOA</translation>
   </message>
   <message>
-   <source>Label {0} {1}</source>
+   <source>Label {0} as {1}</source>
    <translation>{0} als {1} bezeichnen</translation>
   </message>
   <message>
@@ -1096,6 +1139,10 @@
    <translation>Beingröße</translation>
   </message>
   <message>
+   <source>Legend</source>
+   <translation>Legende</translation>
+  </message>
+  <message>
    <source>Length</source>
    <translation>Länge</translation>
   </message>
@@ -1140,8 +1187,8 @@
    <translation>Stimmt so</translation>
   </message>
   <message>
-   <source>Machine</source>
-   <translation>Programm</translation>
+   <source>Machine had said</source>
+   <translation>Vom Programm</translation>
   </message>
   <message>
    <source>Made from</source>
@@ -1520,6 +1567,10 @@
    <translation>Open3Ds Anzeige braucht einen Bildschirm mit OpenGL, und hier ist keiner; die 3D-Ansicht zeigt dasselbe.</translation>
   </message>
   <message>
+   <source>Opening</source>
+   <translation>Durchgang</translation>
+  </message>
+  <message>
    <source>Opening {name}</source>
    <translation>Öffnung {name}</translation>
   </message>
@@ -1696,6 +1747,10 @@
    <translation>Punkte werden nicht nach {0} gefärbt; zur Wahl stehen: {1}.</translation>
   </message>
   <message>
+   <source>Points by colour</source>
+   <translation>Punkte färben</translation>
+  </message>
+  <message>
    <source>Points by facing</source>
    <translation>Punkte nach Richtung</translation>
   </message>
@@ -1732,6 +1787,10 @@
    <translation>Vorhergesagt</translation>
   </message>
   <message>
+   <source>Predicted floor</source>
+   <translation>Vorhergesagter Boden</translation>
+  </message>
+  <message>
    <source>Presets</source>
    <translation>Vorgaben</translation>
   </message>
@@ -1762,10 +1821,6 @@
   <message>
    <source>Reading {0}</source>
    <translation>{0} lesen</translation>
-  </message>
-  <message>
-   <source>Reading {count} points so far</source>
-   <translation>Bisher {count} Punkte gelesen</translation>
   </message>
   <message>
    <source>Recent</source>
@@ -1900,6 +1955,10 @@
    <translation>Risiko</translation>
   </message>
   <message>
+   <source>Room</source>
+   <translation>Raum</translation>
+  </message>
+  <message>
    <source>Room or corridor, by perimeter and turning distance</source>
    <translation>Raum oder Flur, nach Umfang und Drehabstand</translation>
   </message>
@@ -1981,7 +2040,7 @@
   </message>
   <message>
    <source>Search settings</source>
-   <translation>Einstellungen durchsuchen</translation>
+   <translation>Suchen</translation>
   </message>
   <message>
    <source>Section box</source>
@@ -2924,6 +2983,10 @@
    <translation>Wonach die Punkte gefärbt sind</translation>
   </message>
   <message>
+   <source>What was said by hand, and what the machine had said</source>
+   <translation>Was von Hand gesagt wurde, und was das Programm gesagt hatte</translation>
+  </message>
+  <message>
    <source>Wheel</source>
    <translation>Mausrad</translation>
   </message>
@@ -3056,6 +3119,14 @@
    <translation>Tür</translation>
   </message>
   <message>
+   <source>door {0}</source>
+   <translation>Tür {0}</translation>
+  </message>
+  <message>
+   <source>doors {0} and {1}</source>
+   <translation>Türen {0} und {1}</translation>
+  </message>
+  <message>
    <source>east</source>
    <translation>Osten</translation>
   </message>
@@ -3136,8 +3207,12 @@
    <translation>Region</translation>
   </message>
   <message>
-   <source>regions {n}</source>
-   <translation>Regionen {n}</translation>
+   <source>region {0}</source>
+   <translation>Region {0}</translation>
+  </message>
+  <message>
+   <source>regions {0} and {1}</source>
+   <translation>Regionen {0} und {1}</translation>
   </message>
   <message>
    <source>rejected</source>
@@ -3150,6 +3225,10 @@
   <message>
    <source>room</source>
    <translation>Raum</translation>
+  </message>
+  <message>
+   <source>seen</source>
+   <translation>gesehen</translation>
   </message>
   <message>
    <source>seen {area}</source>
@@ -3184,6 +3263,14 @@
    <translation>Wand</translation>
   </message>
   <message>
+   <source>wall {0}</source>
+   <translation>Wand {0}</translation>
+  </message>
+  <message>
+   <source>walls {0} and {1}</source>
+   <translation>Wände {0} und {1}</translation>
+  </message>
+  <message>
    <source>west</source>
    <translation>Westen</translation>
   </message>
@@ -3210,6 +3297,10 @@
   <message>
    <source>{0} ({1}) is not possible now.</source>
    <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
+  </message>
+  <message>
+   <source>{0} doors</source>
+   <translation>{0} Türen</translation>
   </message>
   <message>
    <source>{0} failed: {1}: {2}.</source>
@@ -3240,6 +3331,14 @@
    <translation>{0} braucht ein Fenster.</translation>
   </message>
   <message>
+   <source>{0} regions</source>
+   <translation>{0} Regionen</translation>
+  </message>
+  <message>
+   <source>{0} walls</source>
+   <translation>{0} Wände</translation>
+  </message>
+  <message>
    <source>{0} was not written.</source>
    <translation>{0} wurde nicht geschrieben.</translation>
   </message>
@@ -3250,10 +3349,6 @@
   <message>
    <source>{0}: give the path as an argument; there is nobody to ask.</source>
    <translation>{0}: den Pfad als Argument angeben; es ist niemand zu fragen.</translation>
-  </message>
-  <message>
-   <source>{count} doors</source>
-   <translation>{count} Türen</translation>
   </message>
   <message>
    <source>{free} free of {total}</source>
@@ -3272,16 +3367,8 @@
    <translation>{n} von {total}</translation>
   </message>
   <message>
-   <source>{n} points</source>
-   <translation>{n} Punkte</translation>
-  </message>
-  <message>
    <source>{n}, of them {rooms} rooms</source>
    <translation>{n}, davon {rooms} Räume</translation>
-  </message>
-  <message>
-   <source>{planes} planes · {regions} regions · {doors} doors</source>
-   <translation>{planes} Ebenen · {regions} Regionen · {doors} Türen</translation>
   </message>
   <message>
    <source>{share} sure</source>

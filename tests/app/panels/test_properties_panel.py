@@ -138,4 +138,4 @@ def test_a_correction_is_one_click_and_says_what_the_machine_said(
     qtbot.waitUntil(lambda: panel.shown is not None and ("Corrected", "chip-good") in panel.shown.chips)
     values = _values(workbench, workbench.selection.item)
     assert values["By hand"] == "Accepted by hand"
-    assert f"{door.width:.3f} m wide" in values["Machine"]
+    assert f"{door.width:.3f} m wide" in values["Machine had said"]
