@@ -15,6 +15,7 @@ from floorcast_app.workbench import Workbench
 from floorplan_core.model import FloorPlan
 
 SIGN = QSize(28, 16)  # px
+PALER = 0.6  # how far predicted floor goes towards the ground, as in the plan
 KNOWN = ("room", "corridor")  # labels with a colour of their own
 
 
@@ -79,8 +80,7 @@ class Sign(QWidget):
         box = QRectF(self.rect()).adjusted(0.5, 1.5, -0.5, -1.5)
         middle = QLineF(box.left(), box.center().y(), box.right(), box.center().y())
         if self._kind == "guessed":
-            painter.setPen(QPen(QColor(c.wall), 2, Qt.PenStyle.CustomDashLine))
-            pen = painter.pen()
+            pen = QPen(QColor(c.wall), 2)
             pen.setDashPattern([3, 2])
             painter.setPen(pen)
             painter.drawLine(middle)
@@ -97,7 +97,9 @@ class Sign(QWidget):
         floor = {"corridor": c.corridor, "other": c.other}.get(self._kind, c.room)
         painter.fillRect(box, QColor(floor))
         if self._kind == "predicted":
-            painter.fillRect(box, QColor(c.canvas).lighter(100))
+            paler = QColor(c.canvas)
+            paler.setAlphaF(PALER)
+            painter.fillRect(box, paler)
             painter.fillRect(box, QBrush(QColor(c.accent), Qt.BrushStyle.BDiagPattern))
         painter.setPen(QPen(QColor(c.line_strong), 1))
         painter.drawRect(box)
