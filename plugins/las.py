@@ -41,6 +41,7 @@ RGB = ("red", "green", "blue")
 NOISE = (7, 18)  # ASPRS classes: low point, high noise
 CHUNK_BYTES = 64 << 20  # of records: wide ones come in smaller chunks
 SAMPLE_BLOCKS = 128  # of LAS
+LAZ_PIECE = 100_000  # points: decoding holds the interpreter lock, 0.3 to 0.7 s for a whole chunk of ours
 SAMPLE_CHUNKS = 8  # of LAZ, where each place costs the decoding of a whole chunk of 50,000 points
 
 
@@ -125,16 +126,30 @@ def _chunks(path: Path, head: LasHead, names: tuple[str, ...]) -> Iterator[tuple
     with _opened(path) as file:
         left = head.count
         while left > 0:
+            wanted = min(size, left)
             with damaged(path.name, "LAS file"):
-                records = file.read_points(size)
-                chunk = _points(records, names)
-            if len(records) < min(size, left):
+                read, chunk = _read(file, wanted, LAZ_PIECE if head.compressed else wanted, names)
+            if read < wanted:
                 raise InputError(
                     f"{path.name} is truncated: its header promises {head.count:,} points, "
-                    f"{head.count - left + len(records):,} of them exist."
+                    f"{head.count - left + read:,} of them exist."
                 )
-            left -= len(records)
+            left -= read
             yield chunk
+
+
+def _read(file: Any, wanted: int, piece: int, names: tuple[str, ...]) -> tuple[int, tuple[RawChunk, int]]:
+    """How many of so many records were there, and their points, read a piece at a time."""
+    parts, read = [], 0
+    while read < wanted:
+        records = file.read_points(min(piece, wanted - read))
+        if not len(records):
+            break
+        parts.append(_points(records, names))
+        read += len(records)
+    if len(parts) < 2:
+        return read, parts[0] if parts else _points(file.read_points(0), names)
+    return read, (join_chunks([points for points, _ in parts]), sum(noise for _, noise in parts))
 
 
 def _chunk_size(head: LasHead) -> int:
