@@ -154,12 +154,11 @@ class _View:
         bare = "points" not in self._look.layers
         colour = self._tint(item, int(self._facing[plane.facing]))
         alpha = HIGHLIGHT["wall"] if lit else ALPHA["bare_wall" if bare else "wall"]
-        seen = {tuple(np.round(run, 3)) for run in plane.observed}
+        guessed = plane.speculated or not len(plane.observed)
         for run in plane.walls if len(plane.walls) else plane.observed:
             ends = self._in_section(turned(on_wall(plane.facing.axis, plane.offset, run), plane.turn))
             if ends is None:
                 continue
-            guessed = plane.speculated or (not seen)
             self._walls.surface(quad(ends, 0.0, self._top), colour, alpha, owner, HATCH if guessed else 0)
             top = raised(ends, self._top)[None]
             self._lines.line(dashed(top) if guessed else top, colour, OPAQUE, 1)
