@@ -73,7 +73,8 @@ def lay_out(
     segments, rows = stage(
         "segments", lambda: find_segments(evidence, config.segments), evidence, config.segments
     )
-    parts, beams = config.planes, (config.doors.max_beamless, config.doors.lintel_depth)
+    parts, wide = config.planes, config.doors
+    beams = wide.max_beamless, wide.lintel_depth, wide.max_opening
     segments, planes = stage(
         "planes",
         lambda: find_planes(segments, rows, evidence, parts, config.doors),

@@ -14,8 +14,10 @@ from floorplan_core.model import Door, LayoutPlane
 Float = NDArray[np.float64]
 
 _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it must meet
-_ON = 0.5  # m that a crossing wall must go on beyond a beam on both sides
+_ON = 0.5  # m that a crossing wall must go on beyond a beam or a gap on both sides
 _FLANK, _STANDS = 0.6, 0.25  # m beside an opening in which that much wall must stand
+_STUB, _CORNERED = 0.1, 0.5  # m of wall that is a jamb beside a corner, and how near the corner must be
+_SOLID = 0.12  # of the height below 2 m, seen: something stands there
 _PASSED = 1.0  # m of an open stretch through which free space was seen
 _TOUCH = 0.3  # m beyond the end of the other wall
 
@@ -32,6 +34,12 @@ def crossing_offsets(plane: LayoutPlane, others: Float) -> Float:
     return np.asarray(others[near, 0])
 
 
+def passing_offsets(plane: LayoutPlane, others: Float) -> Float:
+    """(M,) where along ``plane`` those of the wall runs ``others`` (K, 3) cross that go on on both sides."""
+    beyond = (others[:, 1] < plane.offset - _ON) & (others[:, 2] > plane.offset + _ON)
+    return np.asarray(others[beyond, 0])
+
+
 def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
     """Extend each wall run to the crossing wall near its end, where nothing was seen to pass between."""
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
@@ -44,21 +52,22 @@ def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
 
 
 def remove_beams(
-    planes: Sequence[LayoutPlane], widest_lintel: float, shallow: float
+    planes: Sequence[LayoutPlane], widest_lintel: float, shallow: float, widest: float
 ) -> tuple[LayoutPlane, ...]:
     """Cut from the wall runs what is a beam under the ceiling: it spans from one crossing wall to another.
 
     A lintel rests on wall that ends beside the opening; a beam rests on walls that go on in front of and
     behind it, or on nothing that stands in its own plane. Only gaps wider than ``widest_lintel`` (metres) are
-    judged; below ``shallow`` metres of depth one such end is enough.
+    judged; up to ``widest`` one jamb is enough where the other end is a corner, or a wall that goes on while
+    the surface above is at least ``shallow`` metres deep.
     """
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
     out = []
     for plane in planes:
         others = crossing[1 - plane.facing.axis]
-        going_on = others[(others[:, 1] < plane.offset - _ON) & (others[:, 2] > plane.offset + _ON), 0]
+        meets, past = crossing_offsets(plane, others), passing_offsets(plane, others)
         wide = [span for span in _open_spans(plane) if span[1] - span[0] > widest_lintel]
-        beams = [span for span in wide if _is_beam(span, plane, going_on, shallow)]
+        beams = [span for span in wide if _is_beam(span, plane, meets, past, shallow, widest)]
         out.append(replace(plane, walls=_without(plane.walls, beams)) if beams else plane)
     return tuple(out)
 
@@ -69,7 +78,7 @@ def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
     if profile is None:
         return []
     spans = []
-    for a, b in runs_of(profile.low < 0.12).tolist():
+    for a, b in runs_of(profile.low < _SOLID).tolist():
         if (b - a) * profile.step <= _PASSED:
             continue
         passed = a + np.flatnonzero(profile.through[a:b] > 0.3)
@@ -79,10 +88,39 @@ def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
     return spans
 
 
-def _is_beam(span: tuple[float, float], plane: LayoutPlane, crossing: Float, shallow: float) -> bool:
-    """True where the span rests on crossing walls, or on nothing in its own plane."""
-    ends = sum(bool(len(crossing)) and float(np.abs(crossing - end).min()) < _TOUCH for end in span)
-    return ends == 2 or (ends == 1 and _depth(span, plane) < shallow) or not _flanked(span, plane)
+def _is_beam(
+    span: tuple[float, float], plane: LayoutPlane, meets: Float, past: Float, shallow: float, widest: float
+) -> bool:
+    """True where the span rests on crossing walls, or on nothing in its own plane.
+
+    :param meets: (M,) where walls cross the plane; ``past``: (P,) those of them that go on on both sides.
+    """
+    ends = list(zip(span, (-1, 1), strict=True))
+    open_ends = [(end, sign) for end, sign in ends if not _has_jamb(end, sign, plane, meets, past)]
+    if len(open_ends) != 1 or span[1] - span[0] > widest:
+        return len(open_ends) > 0
+    end, _ = open_ends[0]
+    if _is_near(end, past, _TOUCH):
+        return _depth(span, plane) < shallow
+    return not _is_near(end, meets, _CORNERED)
+
+
+def _is_near(end: float, crossing: Float, reach: float) -> bool:
+    return bool(len(crossing)) and float(np.abs(crossing - end).min()) < reach
+
+
+def _has_jamb(end: float, sign: int, plane: LayoutPlane, meets: Float, past: Float) -> bool:
+    """True where wall stands in the plane beside the end of a span, before any wall that goes on past it.
+
+    Beside a corner a stub is enough.
+    """
+    profile = plane.profile
+    assert profile is not None
+    stop = min((d for d in ((past - end) * sign).tolist() if d >= -_TOUCH), default=np.inf)
+    reach = min(_FLANK, max(stop, 0.0))
+    a, b = sorted(round((v - profile.start) / profile.step) for v in (end, end + sign * reach))
+    stands = int((profile.low[max(a, 0) : b] >= _SOLID).sum()) * profile.step
+    return stands > (_STUB if _is_near(end, meets, _CORNERED) else _STANDS) - profile.step / 2
 
 
 def _depth(span: tuple[float, float], plane: LayoutPlane) -> float:
@@ -91,16 +129,6 @@ def _depth(span: tuple[float, float], plane: LayoutPlane) -> float:
     assert profile is not None
     a, b = (round((v - profile.start) / profile.step) for v in span)
     return float(np.median(profile.high[a:b])) if b > a else 0.0
-
-
-def _flanked(span: tuple[float, float], plane: LayoutPlane) -> bool:
-    """True where wall stands in the plane on both sides of the span."""
-    profile = plane.profile
-    assert profile is not None
-    a, b = (round((v - profile.start) / profile.step) for v in span)
-    reach, least = round(_FLANK / profile.step), round(_STANDS / profile.step)
-    solid = profile.low >= 0.12
-    return bool(min(solid[max(0, a - reach) : a].sum(), solid[b : b + reach].sum()) >= least)
 
 
 def _without(runs: Float, spans: list[tuple[float, float]]) -> Float:

@@ -23,11 +23,12 @@ from floorplan_core.model import WallProfile
 from floorplan_core.stages.layout_planes import is_solid
 
 Float = NDArray[np.float64]
+_NOWHERE: Float = np.zeros(0)
 Aperture = tuple[float, float, float]  # start, end (metres along the plane), response
 
 _BARE_CORNER = 1.0  # m, widest corner opening without a lintel that is still a door
 _LINTELS = (
-    0.015  # of the wall seen below 2 m: 0.7 % at most in lifted planar scans, 2.7 % at least in 3-D ones
+    0.003  # of the wall seen below 2 m: 0.06 % at most in lifted planar scans, 0.9 % at least in 3-D ones
 )
 _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _CORNER_LINTEL = 0.3  # of the width of a corner opening that must be seen under a lintel
@@ -37,6 +38,7 @@ _FREE_WITHIN = 0.4  # the same within the wall, where it is open by that alone
 _FREE_RESPONSE = 0.3  # there is no clear step
 _CELL = 0.1  # m: free space is known by cells of this size, and the outermost ones hold the jambs
 _JAMB = 0.3  # m, the widest stub of wall between a door and the corner that nobody may have seen
+_AT = 0.1  # m from the end of a run to the wall that it ends at
 _STUB = 0.15  # m, the same where free space does not tell: a voxel and a half
 _PIECE = 0.25  # m, the shortest piece of wall at which a door may begin
 _OFF_APERTURE = 0.01  # of the answer, a metre off the aperture that the filter is matched to: ties go to it
@@ -115,12 +117,14 @@ def apertures(
     meets: Float,
     config: DoorsConfig,
     lintels: bool = True,
+    past: Float = _NOWHERE,
 ) -> list[Aperture]:
     """(start, end, response) of the openings in one plane: peaks of the filter, gaps under lintels, corners.
 
     :param lintels: the survey shows any.
     :param free: (B,) 0 to 1, how much of the height of a door is free within the wall.
-    :param walls: (K, 2) the plane's wall runs; ``meets``: (M,) where walls cross the plane. Metres along it.
+    :param walls: (K, 2) the plane's wall runs; ``meets``: (M,) where walls cross the plane, ``past``: (P,)
+        where they go on before and behind it. Metres along it.
     """
     signal = door_response(profile, config)
     out: list[Aperture] = []
@@ -134,8 +138,8 @@ def apertures(
             taken[max(0, first - 1) : last + 1] = True
             out.append((*_edges(profile, first, last), float(signal.response[k])))
     for gap in (
-        *_lintel_gaps(profile, walls, config),
-        *_corner_gaps(profile, free, walls, meets.tolist(), config, lintels),
+        *_lintel_gaps(profile, free, walls, config),
+        *_corner_gaps(profile, free, walls, meets.tolist(), past, config, lintels),
         *_free_gaps(profile, free, config),
     ):
         if not _overlaps(gap, out):
@@ -148,25 +152,33 @@ def _corner_gaps(
     free: Float,
     walls: Float,
     meets: Sequence[float],
+    past: Float,
     config: DoorsConfig,
     lintels: bool,
 ) -> list[Aperture]:
     """Openings between the end of a piece of wall and a crossing wall: one of their jambs is in the plane.
 
     Under a lintel the wall goes on above; where a wall ends, and where the survey shows no lintel anywhere, a
-    narrow gap is a door without one, a wide one rather a passage past the wall's end.
+    narrow gap is a door without one, a wide one rather a passage past the wall's end. Where it ends at a wall
+    that goes on past it, it has no end of its own: the gap is as wide as the corridor that runs by.
     """
     most = config.max_width
     ends = [
         gap
         for edge in _edges_of(walls)
-        if (gap := _corner_gap(profile, free, *edge, meets, most))
+        if not _is_at(edge[0], past)
+        and (gap := _corner_gap(profile, free, *edge, meets, most))
         and _passed(profile, gap) >= _CORNER_PASSAGE
     ]
     under = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in _edges_of(_pieces(profile))]
     widest = most if lintels else min(_BARE_CORNER, most)
     ends += [gap for gap in under if gap and _lintel_share(profile, gap) >= _CORNER_LINTEL]
     return [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
+
+
+def _is_at(edge: float, crossing: Float) -> bool:
+    """True where one of the crossing walls stands at the end of a run."""
+    return bool(len(crossing)) and float(np.abs(crossing - edge).min()) < _AT
 
 
 def _edges_of(runs: Float) -> list[tuple[float, int]]:
@@ -244,21 +256,32 @@ def _edges(profile: WallProfile, first: int, last: int) -> tuple[float, float]:
     return crossing(first, 1), crossing(last, -1)
 
 
-def _lintel_gaps(profile: WallProfile, walls: Float, config: DoorsConfig) -> list[Aperture]:
-    """Openings that lie inside a wall run: nothing below 2 m, wall above, free space through."""
-    out = []
+def _lintel_gaps(profile: WallProfile, free: Float, walls: Float, config: DoorsConfig) -> list[Aperture]:
+    """Openings that lie inside a wall run: nothing below 2 m, wall above, free space in them or through."""
+    passed = np.maximum(profile.through, free)
+    gaps = (_seen_part(passed, i, j, profile.step) for i, j in runs_of(~is_solid(profile)).tolist())
     empty = [
         (i, j)
-        for i, j in runs_of(~is_solid(profile)).tolist()
-        if config.min_width <= (j - i) * profile.step <= config.max_opening
-        and profile.through[i:j].mean() > 0.3
+        for i, j in gaps
+        if config.min_width <= (j - i) * profile.step <= config.max_opening and passed[i:j].mean() > _FREE
     ]
+    out = []
     for wall in walls.tolist() if empty else []:
         a, b = (round((v - profile.start) / profile.step) for v in wall)
         for i, j in empty:
-            if a < i and j < b:
-                out.append((*_edges(profile, i, j), float((profile.high[i:j] > 0).mean())))
+            lintel = float((profile.high[i:j] > 0).mean())
+            if a < i and j < b and lintel >= _CORNER_LINTEL:
+                out.append((*_edges(profile, i, j), lintel))
     return out
+
+
+def _seen_part(passed: Float, i: int, j: int, step: float) -> tuple[int, int]:
+    """The bins i to j without a stub of wall at one of their ends that nobody saw."""
+    seen = i + np.flatnonzero(passed[i:j] > _FREE)
+    if not len(seen):
+        return i, j
+    first, last = int(seen[0]), int(seen[-1]) + 1
+    return (first if 0 < (first - i) * step <= _JAMB else i), (last if 0 < (j - last) * step <= _JAMB else j)
 
 
 def _free_gaps(profile: WallProfile, free: Float, config: DoorsConfig) -> list[Aperture]:

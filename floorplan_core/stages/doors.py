@@ -16,7 +16,7 @@ from floorplan_core.config import DoorsConfig
 from floorplan_core.geometry.halves import begin
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
+from floorplan_core.stages.blockers import crossing_offsets, crossing_walls, passing_offsets
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
@@ -55,9 +55,12 @@ def find_candidates(
     found = []
     for plane in planes:
         assert plane.profile is not None
-        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
+        others = crossing[1 - plane.facing.axis]
+        meets, past = crossing_offsets(plane, others), passing_offsets(plane, others)
         view = view_wall(plane, evidence)
-        for start, end, response in apertures(plane.profile, view.open, plane.walls, meets, config, lintels):
+        for start, end, response in apertures(
+            plane.profile, view.open, plane.walls, meets, config, lintels, past
+        ):
             seen = measure(plane, start, end, response, view, evidence)
             if seen.is_open() or not has_parapet(plane.profile, start, end):
                 found.append(_candidate(plane, start, end, seen))

@@ -9,7 +9,7 @@ import pytest
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, WallProfile
-from floorplan_core.stages.door_apertures import door_response, percentile
+from floorplan_core.stages.door_apertures import apertures, door_response, percentile, shows_lintels
 from tests.box_world import EYE, LINTEL, Run, run, stations, survey, two_rooms, wall
 
 WIDTH_TOLERANCE = 0.03  # m
@@ -197,3 +197,28 @@ def test_percentiles_are_those_of_numpy(q: int) -> None:
     for size in (1, 2, 3, 10, 101):
         values = rng.random(size)
         assert percentile(values, q) == np.percentile(values, q)
+
+
+def _corridor_profile() -> WallProfile:
+    """A wall from 0 to 2 m, then 1.2 m that are passed, then unseen; no lintel."""
+    low = np.where(np.arange(80) < 40, 0.9, 0.0)
+    through = np.where((np.arange(80) >= 40) & (np.arange(80) < 64), 1.0, 0.0)
+    return WallProfile(0.0, 0.05, low, np.where(low > 0, 0.5, 0.0), through)
+
+
+def test_a_gap_between_two_walls_that_go_on_is_as_wide_as_the_corridor_and_no_door():
+    profile, walls, meets = _corridor_profile(), np.array([[0.0, 2.0]]), np.array([2.05, 3.2])
+    settings = DoorsConfig(min_response=0.9)  # corners alone
+    ((start, end, _),) = apertures(profile, profile.through, walls, meets, settings)
+    assert (start, end) == pytest.approx((2.0, 3.2))
+    assert apertures(profile, profile.through, walls, meets, settings, past=np.array([2.05])) == []
+    beyond = apertures(profile, profile.through, walls, meets, settings, past=np.array([3.2]))
+    assert len(beyond) == 1  # the corner beyond a door may belong to a wall that goes on
+
+
+def test_a_few_lintels_show_that_the_sensor_sees_in_three_dimensions():
+    low, high = np.full(1000, 0.9), np.full(1000, 0.5)
+    low[:8] = 0.0  # of 50 m of wall 40 cm under a lintel
+    through = np.where(low > 0, 0.0, 1.0)
+    assert shows_lintels([WallProfile(0.0, 0.05, low, high, through)])
+    assert not shows_lintels([WallProfile(0.0, 0.05, low, np.where(low > 0, high, 0.0), through)])

@@ -1,0 +1,81 @@
+"""Beams and lintels over a wide gap in a wall along y: what carries them, and how deep they hang."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from floorplan_core.model import Facing, LayoutPlane, WallProfile
+from floorplan_core.stages.blockers import passing_offsets, remove_beams
+
+STEP, BEAMS = 0.05, (1.9, 0.45, 4.0)
+CORNER = 10.0  # where the other walls meet the plane
+Runs = list[tuple[float, float]]
+
+
+def spanned(runs: Runs, depth: float = 0.6) -> LayoutPlane:
+    """A wall that stands in ``runs``; surface ``depth`` metres deep above all of it from 2 to 10 m."""
+    at = STEP * (np.arange(240) + 0.5)
+    stands = np.any([(at > s) & (at < e) for s, e in runs], axis=0)
+    above = (at > 2) & (at < CORNER)
+    low = np.where(stands, 0.9, 0.0)
+    profile = WallProfile(0.0, STEP, low, np.where(above, depth, 0.0), np.where(above & ~stands, 1.0, 0.0))
+    return LayoutPlane("a", Facing.EAST, 4.0, profile=profile, support=5.0, walls=np.array([(2.0, CORNER)]))
+
+
+def across(at: float, *runs: tuple[float, float]) -> LayoutPlane:
+    """A wall along x, ``at`` metres along the plane."""
+    return LayoutPlane(f"x{at}", Facing.NORTH, at, support=5.0, walls=np.array(runs))
+
+
+def is_cut(plane: LayoutPlane, *others: LayoutPlane) -> bool:
+    """True where part of the wall from 2 to 10 m was taken for a beam."""
+    runs = remove_beams([plane, *others], *BEAMS)[0].walls
+    return float((runs[:, 1] - runs[:, 0]).sum()) < 8.0 - STEP
+
+
+GOES_ON, ENDS_HERE = (1.0, 8.0), (4.0, 8.0)  # past the plane at x = 4, and from it on
+
+
+@pytest.mark.parametrize("runs", [[(2.0, 5.0), (7.0, 10.0)], [(2.0, 7.3), (9.7, 10.0)]])
+def test_wall_beside_both_ends_carries_a_lintel(runs: Runs) -> None:
+    assert not is_cut(spanned(runs))
+
+
+@pytest.mark.parametrize("wall", [GOES_ON, ENDS_HERE])
+def test_beside_a_corner_a_stub_is_enough(wall: tuple[float, float]) -> None:
+    stub = spanned([(2.0, 7.5), (9.85, CORNER)], depth=0.3)
+    assert not is_cut(stub, across(CORNER, wall))
+
+
+def test_a_stub_in_the_open_is_none() -> None:
+    assert is_cut(spanned([(2.0, 7.5), (9.85, CORNER)]))
+
+
+def test_one_jamb_and_a_wall_that_goes_on_carry_a_deep_lintel_only() -> None:
+    wall, other = [(2.0, 7.5)], across(CORNER, GOES_ON)
+    assert not is_cut(spanned(wall, depth=0.6), other)
+    assert is_cut(spanned(wall, depth=0.3), other)
+
+
+def test_between_two_walls_that_go_on_hangs_a_beam_even_where_wall_stands_beyond_them() -> None:
+    beyond = spanned([(2.0, 5.0), (8.0, 10.0)])
+    assert is_cut(beyond, across(5.0, GOES_ON), across(8.0, GOES_ON))
+    assert not is_cut(beyond)
+
+
+def test_a_gap_that_may_be_a_door_is_not_judged() -> None:
+    narrow = spanned([(2.0, 8.2)], depth=0.3)
+    assert not is_cut(narrow, across(CORNER, GOES_ON))
+
+
+def test_a_wall_passes_where_it_goes_on_half_a_metre_on_both_sides() -> None:
+    others = np.array([[1.0, 3.2, 9.0], [2.0, 3.7, 9.0], [3.0, 0.0, 4.3]])
+    assert passing_offsets(spanned([(2.0, 5.0)]), others).tolist() == [1.0]
+
+
+def test_wider_than_an_opening_both_ends_need_a_jamb() -> None:
+    corner = across(CORNER, ENDS_HERE)
+    assert not is_cut(spanned([(2.0, 6.5)]), corner)
+    assert is_cut(spanned([(2.0, 5.5)]), corner)
+    assert not is_cut(spanned([(2.0, 5.5), (9.85, CORNER)]), corner)
