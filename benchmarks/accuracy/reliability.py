@@ -45,16 +45,21 @@ class Keeper(Observer):
 
 def judge(apertures: Sequence[Door], plan: FloorPlan, truth: Truth) -> Judged:
     """Each aperture with whether truth has a door or opening there; second ones of a door are left out."""
+    right = is_door(apertures, plan, truth)
+    return [(round(d.confidence, 3), r) for d, r in zip(apertures, right, strict=True) if r is not None]
+
+
+def is_door(apertures: Sequence[Door], plan: FloorPlan, truth: Truth) -> list[bool | None]:
+    """Whether truth has a door or opening at each aperture; None for second ones, and where it has none."""
     to_building = inverse(truth.world_from_building)
     doors = [_in_building(door, plan, to_building) for door in apertures]
     if not doors or not truth.doors:
-        return []
+        return [None] * len(doors)
     near = affinity(doors, truth.doors).max(axis=1) > 0
     partner = {m.plan: truth.doors[m.truth].kind for m in match_doors(doors, truth.doors)}
     return [
-        (round(door.confidence, 3), partner.get(k, "none") in ("door", "opening"))
-        for k, door in enumerate(doors)
-        if k in partner or not near[k]
+        partner.get(k, "none") in ("door", "opening") if k in partner or not near[k] else None
+        for k in range(len(doors))
     ]
 
 
