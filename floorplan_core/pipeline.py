@@ -65,6 +65,7 @@ MIN_SURFELS = 200  # fewer occupied voxels hold no room
 EVIDENCE_SURFEL = 60  # bytes of each surfel in the manhattan frame, where it is in memory
 STAGES_SURFEL, STAGES_COLUMN = 40, 100  # bytes that the stages take for each surfel and each fine column
 STOREYS_SURFEL = 80  # where storeys have to be told apart, before
+OUTLINE_SURFELS = 20_000  # that the extent of a site is estimated on
 OUTLYING = (0.1, 99.9)  # percentiles of the surfels beyond which a site does not reach
 LEFT_OUT = 1.0  # m2 of free space in no region, from which the user is told
 
@@ -223,7 +224,8 @@ class FloorPlanner:
     def _make_room_for_plan(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
         """See to it that there is memory for the evidence of ``surfels`` and for the stages."""
         size = self.config.voxels.size
-        xy = (self.map.sample().centroid @ own.rotation.T)[:, :2]
+        seen = self.map.sample().centroid
+        xy = seen[:: max(1, len(seen) // OUTLINE_SURFELS)] @ own.rotation[:2].T
         wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()
         columns = min(wide * deep / (size / 2) ** 2, LARGEST)  # a larger site is refused for its size
         what = f"The plan of {wide:.0f} x {deep:.0f} m in voxels of {size:g} m"
