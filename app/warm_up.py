@@ -7,8 +7,9 @@ moment each: better now than while a survey is on its way. The bundled survey is
 from __future__ import annotations
 
 import threading
+from importlib.resources import files
+from pathlib import Path
 
-from floorcast_app import theme
 from floorplan_core.config import Config
 from floorplan_core.errors import FloorPlanError
 from floorplan_core.observer import CancelToken, Observer
@@ -43,9 +44,10 @@ class WarmUp:
 
         from floorplan_core.session import PlanningSession
 
+        sample = Path(str(files("floorcast_resources").joinpath("sample_survey")))
         config, observer = Config(), Observer(self._cancel)
         try:
-            session = PlanningSession.open(theme.resource("sample_survey"), None, config, observer)
+            session = PlanningSession.open(sample, None, config, observer)
             session.read(observer)
             session.plan(config, (), observer, 0)
             session.storeys(config)
