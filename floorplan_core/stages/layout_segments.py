@@ -4,8 +4,7 @@ In: :class:`Evidence`. Out: segments of each facing, structural or not. For each
 from its side count, which keeps the two faces of a thin wall apart; without sensor origins the side comes
 from where the free space is. Surfaces are found where columns line up along the wall, linked along it, and
 their offset is fitted to the surfels themselves, so that it does not know the grid. Structure is told from
-furniture by what reaches above furniture, touches the ceiling, or is looked over. Cost: linear in surfels and
-columns.
+furniture in :mod:`floorplan_core.stages.structure`. Cost: linear in surfels and columns.
 """
 
 from __future__ import annotations
@@ -30,6 +29,7 @@ from floorplan_core.geometry.columns import (
 )
 from floorplan_core.model import Facing, LayoutSegment
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.structure import Judgement, Patches, in_line, judge
 from floorplan_core.stages.upright_surfels import UprightSurfels, upright_surfels
 
 Float = NDArray[np.float64]
@@ -37,13 +37,8 @@ Float = NDArray[np.float64]
 _SKIRTING = 0.2  # m above the floor below which nothing counts as wall
 _HIST = 60  # bins of 2.5 mm on each side of a segment, for its robust offset
 _HIST_BIN = 0.0025
-_BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
-_OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WIDEST = 0.04  # m, standard deviation that a surface may have
 _AT_A_TIME = 2  # facings: each takes 48 bytes for each fine column, 400 of them a square metre
-ALL_LEVELS = np.uint64((1 << 64) - 1)
-
-Judgement = tuple[bool, tuple[str, ...]]  # structure or not, and why
 
 
 @dataclass(frozen=True)
@@ -63,26 +58,6 @@ class SegmentRows:
 
     row: NDArray[np.int64]  # (R,) fine cell along the wall, counted from the grid's origin
     bits: NDArray[np.uint64]  # (R,) levels hit
-
-
-@dataclass(frozen=True)
-class Patches:
-    """The chains of one facing that become segments, row by row."""
-
-    chain: NDArray[np.int64]  # (K,)
-    first: NDArray[np.int64]  # (K + 1,) rows from ``first[k]`` to ``first[k + 1]`` are those of patch k
-    row: NDArray[np.int64]  # (R,) fine cell along the wall
-    bits: NDArray[np.uint64]  # (R,) levels hit
-    area: Float  # (K,) m2
-
-    @property
-    def lengths(self) -> NDArray[np.int64]:
-        """(K,) rows of each patch."""
-        return np.diff(self.first)
-
-    def count(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-        """(K,) rows of each patch where ``mask`` (R,) is True."""
-        return np.diff(np.concatenate([[0], np.cumsum(mask)])[self.first])
 
 
 class Fit(NamedTuple):
@@ -122,7 +97,8 @@ def _segments_of(
     patches = _large_patches(surfaces, upright, config)
     chain = patches.chain
     offset, sigma, weight = _robust_offsets(mean[chain], histogram[chain])
-    judged = _judge(upright.evidence, facing, patches, offset, config)
+    judged = judge(upright.evidence, facing, patches, offset, config)
+    judged = in_line(judged, patches, offset, upright.evidence.fine) if judged else judged
     fits = np.column_stack([offset, sigma, spread[chain], weight, points[chain]]).tolist()
     return [
         _segment(upright.evidence, facing, patches, k, Fit(*fits[k]), judged[k]) for k in range(len(fits))
@@ -274,66 +250,3 @@ def _segment(
         evidence=words,
     )
     return segment, SegmentRows(rows, bits)
-
-
-def _judge(
-    evidence: Evidence, facing: Facing, patches: Patches, offset: Float, config: SegmentsConfig
-) -> list[Judgement]:
-    """Structure or furniture, by height reached, contact with the ceiling, and being looked over."""
-    ceiling, bits, fine = evidence.frame.ceiling_z, patches.bits, evidence.fine
-    tall = patches.count((bits & ~height_mask(0, config.furniture_height + LEVEL)) != 0)
-    top = np.inf if ceiling is None else max(ceiling - evidence.frame.floor_z - config.ceiling_gap, 1.0)
-    at_top = np.zeros(len(bits), dtype=bool) if ceiling is None else (bits & ~height_mask(0, top)) != 0
-    over = patches.count(_looked_over(evidence, facing, patches, offset))
-    numbers = zip(patches.lengths, tall, patches.count(at_top), over, strict=True)
-    return [_judgement(fine, *(int(n) for n in four)) for four in numbers]
-
-
-def _judgement(fine: float, rows: int, tall: int, at_top: int, looked_over: int) -> Judgement:
-    """What so many rows, of them so many tall, at the ceiling and looked over, are."""
-    over = looked_over / rows
-    if at_top / rows >= 0.2 and over < 0.6:
-        return True, ("reaches ceiling",)
-    if over > 0.3:  # a cabinet, a curtain, a counter: there is air between it and the ceiling
-        return False, ("looked over",)
-    if tall / rows >= 0.3 or tall * fine >= 1.0:
-        return True, ("above furniture",)
-    if rows * fine >= 1.0 and over < 0.1:
-        return True, ("long, top not seen",)
-    return False, ("low",)
-
-
-def _looked_over(evidence: Evidence, facing: Facing, patches: Patches, offset: Float) -> NDArray[np.bool_]:
-    """(R,) True for the rows where free space was seen just behind and above the surface.
-
-    The farther of the two columns asked may lie on the other side of a thin wall: it counts only where the
-    wall's other face was not seen to go on above in between.
-    """
-    a, row = facing.axis, patches.row
-    grid = evidence.free if a == 0 else evidence.free.T
-    near = offset[:, None] - facing.sign * np.array([0.5, 1.5]) * evidence.cell
-    iu = np.clip(((near - evidence.origin[a]) / evidence.cell).astype(int), 0, grid.shape[1] - 1)
-    iu, iv = np.repeat(iu, patches.lengths, axis=0), np.clip(row // 2, 0, grid.shape[0] - 1)
-    ceiling = evidence.frame.ceiling_z
-    limit = 2.6 if ceiling is None else ceiling - evidence.frame.floor_z - 0.1
-    top = np.floor(np.log2(np.maximum(patches.bits, 1).astype(np.float64))).astype(np.uint64)
-    above = (ALL_LEVELS << (top + np.uint64(2))) & height_mask(0.5, limit)
-    goes_on = count_bits(_surfaces_behind(evidence, facing, patches, offset) & above) >= _OTHER_FACE
-    free = grid[iv, iu[:, 0]] | np.where(goes_on, np.uint64(0), grid[iv, iu[:, 1]])
-    return np.asarray((free & above) != 0)
-
-
-def _surfaces_behind(
-    evidence: Evidence, facing: Facing, patches: Patches, offset: Float
-) -> NDArray[np.uint64]:
-    """(R,) levels at which anything was hit within the thickness of a wall behind its face."""
-    a = facing.axis
-    hits = evidence.hits if a == 0 else evidence.hits.T
-    at = np.sort(offset[:, None] - facing.sign * np.array(_BEHIND), axis=1)
-    ends = np.clip(np.floor((at - evidence.origin[a]) / evidence.fine).astype(int), 0, hits.shape[1] - 1)
-    low, high = np.repeat(ends, patches.lengths, axis=0).T
-    row = np.clip(patches.row, 0, hits.shape[0] - 1)
-    levels = np.zeros(len(row), dtype=np.uint64)
-    for step in range(int((ends[:, 1] - ends[:, 0]).max(initial=-1)) + 1):
-        levels |= hits[row, np.minimum(low + step, high)]
-    return levels

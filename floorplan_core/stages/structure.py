@@ -1,0 +1,137 @@
+"""Structure told from furniture: by the height reached, contact with the ceiling, and being looked over.
+
+In: the patches of one facing, row by row, with their offsets. Out: for each, structure or not, and why.
+Only structure makes layout planes. Cost: linear in rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floorplan_core.config import SegmentsConfig
+from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.model import Facing
+from floorplan_core.model.evidence import Evidence
+
+Float = NDArray[np.float64]
+
+_BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
+_OTHER_FACE = 2  # levels of it that tell a wall from noise
+_WELL_SEEN = 0.7  # m of the height of a patch seen on average: of glass and reveals it is less
+_LEAF = 1.0  # m: a shorter surface may be the leaf of a door that stands open
+_LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
+_FLUSH = 0.02  # m between two pieces of one face
+_DOORWAY = 1.3  # m between the jambs of a door
+ALL_LEVELS = np.uint64((1 << 64) - 1)
+
+Judgement = tuple[bool, tuple[str, ...]]  # structure or not, and why
+
+
+@dataclass(frozen=True)
+class Patches:
+    """The chains of one facing that become segments, row by row."""
+
+    chain: NDArray[np.int64]  # (K,)
+    first: NDArray[np.int64]  # (K + 1,) rows from ``first[k]`` to ``first[k + 1]`` are those of patch k
+    row: NDArray[np.int64]  # (R,) fine cell along the wall
+    bits: NDArray[np.uint64]  # (R,) levels hit
+    area: Float  # (K,) m2
+
+    @property
+    def lengths(self) -> NDArray[np.int64]:
+        """(K,) rows of each patch."""
+        return np.diff(self.first)
+
+    def count(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """(K,) rows of each patch where ``mask`` (R,) is True."""
+        return np.diff(np.concatenate([[0], np.cumsum(mask)])[self.first])
+
+
+def judge(
+    evidence: Evidence, facing: Facing, patches: Patches, offset: Float, config: SegmentsConfig
+) -> list[Judgement]:
+    """Structure or furniture, by height reached, contact with the ceiling, and being looked over."""
+    ceiling, bits, fine = evidence.frame.ceiling_z, patches.bits, evidence.fine
+    tall = patches.count((bits & ~height_mask(0, config.furniture_height + LEVEL)) != 0)
+    top = np.inf if ceiling is None else max(ceiling - evidence.frame.floor_z - config.ceiling_gap, 1.0)
+    at_top = np.zeros(len(bits), dtype=bool) if ceiling is None else (bits & ~height_mask(0, top)) != 0
+    length = fine * patches.lengths
+    surely = (tall > 0) & (length > _LEAF) & (patches.area >= _WELL_SEEN * length)
+    over = patches.count(_looked_over(evidence, facing, patches, offset, surely))
+    numbers = zip(patches.lengths, tall, patches.count(at_top), over, strict=True)
+    return [_judgement(fine, *(int(n) for n in four)) for four in numbers]
+
+
+def _judgement(fine: float, rows: int, tall: int, at_top: int, looked_over: int) -> Judgement:
+    """What so many rows, of them so many tall, at the ceiling and looked over, are."""
+    over = looked_over / rows
+    if at_top / rows >= 0.2 and over < 0.6:
+        return True, ("reaches ceiling",)
+    if over > 0.3:  # a cabinet, a curtain, a counter: there is air between it and the ceiling
+        return False, ("looked over",)
+    if tall / rows >= 0.3 or tall * fine >= 1.0:
+        return True, ("above furniture",)
+    if rows * fine >= 1.0 and over < 0.1:
+        return True, ("long, top not seen",)
+    return False, (_LOW,)
+
+
+def in_line(judged: list[Judgement], patches: Patches, offset: Float, fine: float) -> list[Judgement]:
+    """The judgements, with low pieces that lie in line with structure, a doorway from it: the wall goes on.
+
+    Beside a door often only the lower part of the wall is seen.
+    """
+    start = np.minimum.reduceat(patches.row, patches.first[:-1]) * fine
+    end = (np.maximum.reduceat(patches.row, patches.first[:-1]) + 1) * fine
+    structure = np.array([found for found, _ in judged], dtype=bool)
+    out = list(judged)
+    for k in range(len(judged)):
+        if judged[k] == (False, (_LOW,)):
+            gap = np.maximum(start - end[k], start[k] - end)
+            if (structure & (np.abs(offset - offset[k]) <= _FLUSH) & (gap <= _DOORWAY)).any():
+                out[k] = True, ("in line with a wall",)
+    return out
+
+
+def _looked_over(
+    evidence: Evidence, facing: Facing, patches: Patches, offset: Float, surely: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(R,) True for the rows where free space was seen just behind and above the surface.
+
+    Two columns behind it are asked. The nearer may lie before a wall that noise has moved: for patches that
+    are ``surely`` (K,) surfaces, longer than a door's leaf and higher than furniture, both must be free.
+    Else the nearer is enough, for shallow things before a wall; the farther may lie on the other side of a
+    thin wall: alone it counts only where the wall's other face was not seen to go on above in between.
+    """
+    a, row = facing.axis, patches.row
+    grid = evidence.free if a == 0 else evidence.free.T
+    near = offset[:, None] - facing.sign * np.array([0.5, 1.5]) * evidence.cell
+    iu = np.clip(((near - evidence.origin[a]) / evidence.cell).astype(int), 0, grid.shape[1] - 1)
+    iu, iv = np.repeat(iu, patches.lengths, axis=0), np.clip(row // 2, 0, grid.shape[0] - 1)
+    ceiling = evidence.frame.ceiling_z
+    limit = 2.6 if ceiling is None else ceiling - evidence.frame.floor_z - 0.1
+    top = np.floor(np.log2(np.maximum(patches.bits, 1).astype(np.float64))).astype(np.uint64)
+    above = (ALL_LEVELS << (top + np.uint64(2))) & height_mask(0.5, limit)
+    goes_on = count_bits(_surfaces_behind(evidence, facing, patches, offset) & above) >= _OTHER_FACE
+    nearer, farther = grid[iv, iu[:, 0]] & above, grid[iv, iu[:, 1]] & above
+    either = nearer | np.where(goes_on, np.uint64(0), farther)
+    return np.asarray(np.where(np.repeat(surely, patches.lengths), nearer & farther, either) != 0)
+
+
+def _surfaces_behind(
+    evidence: Evidence, facing: Facing, patches: Patches, offset: Float
+) -> NDArray[np.uint64]:
+    """(R,) levels at which anything was hit within the thickness of a wall behind its face."""
+    a = facing.axis
+    hits = evidence.hits if a == 0 else evidence.hits.T
+    at = np.sort(offset[:, None] - facing.sign * np.array(_BEHIND), axis=1)
+    ends = np.clip(np.floor((at - evidence.origin[a]) / evidence.fine).astype(int), 0, hits.shape[1] - 1)
+    low, high = np.repeat(ends, patches.lengths, axis=0).T
+    row = np.clip(patches.row, 0, hits.shape[0] - 1)
+    levels = np.zeros(len(row), dtype=np.uint64)
+    for step in range(int((ends[:, 1] - ends[:, 0]).max(initial=-1)) + 1):
+        levels |= hits[row, np.minimum(low + step, high)]
+    return levels
