@@ -46,6 +46,22 @@ assert "Foyer" in [region.name for region in app.workbench.plan.regions]
     assert (tmp_path / "plan.png").stat().st_size > 5000
 
 
+def test_helper_processes_do_not_run_the_script_again(tmp_path: Path) -> None:
+    session = tmp_path / "session.py"
+    session.write_text(
+        """
+import multiprocessing
+process = multiprocessing.get_context("spawn").Process(target=print, args=("helped",))
+process.start()
+process.join()
+assert app and __name__ == "__main__" and process.exitcode == 0
+"""
+    )
+    done = gui(session)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["helped"]
+
+
 def test_a_recorded_list_of_actions(tmp_path: Path) -> None:
     session = tmp_path / "session.json"
     actions = [
