@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.errors import InputError
-from floorplan_core.geometry.scratch import disk_array
+from floorplan_core.geometry.scratch import disk_array, let_go
 from floorplan_core.model import Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
@@ -167,7 +167,10 @@ def _compressed_chunks(
     """The format packs all points as one block: a large one was unpacked into a file, once."""
     arrays = kept[0] if kept else _unpack(path, header)
     for start in range(0, header.points, CHUNK_POINTS):
-        yield _slice(arrays, columns, slice(start, start + CHUNK_POINTS))
+        chunk = _slice(arrays, columns, slice(start, start + CHUNK_POINTS))
+        if kept:
+            let_go(arrays[columns.xyz[0]])  # and all that is in its file
+        yield chunk
 
 
 def _inspect(
