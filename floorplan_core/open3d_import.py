@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 _PLOTS = "open3d.visualization.draw_plotly"
+_LEARNING = "open3d.ml"
 _NAMES = ("get_plotly_fig", "draw_plotly", "draw_plotly_server")
 
 
@@ -22,6 +23,8 @@ def load_open3d() -> Any:
     """
     if "open3d" not in sys.modules and _PLOTS not in sys.modules:
         sys.modules[_PLOTS] = _stub()
+        if getattr(sys, "frozen", False):
+            sys.modules[_LEARNING] = ModuleType(_LEARNING, "Left out of the frozen program.")
     import open3d
 
     return open3d
