@@ -138,8 +138,8 @@ def apertures(
             taken[max(0, first - 1) : last + 1] = True
             out.append((*_edges(profile, first, last), float(signal.response[k])))
     for gap in (
-        *_lintel_gaps(profile, free, walls, config),
         *_corner_gaps(profile, free, walls, meets.tolist(), past, config, lintels),
+        *_lintel_gaps(profile, free, walls, config),
         *_free_gaps(profile, free, config),
     ):
         if not _overlaps(gap, out):

@@ -28,6 +28,7 @@ from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
+Polygons = NDArray[np.object_]  # shapely's
 
 _REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
 _BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
@@ -95,8 +96,11 @@ class RoomGrower:
         self.sides = KnownSides(walls, doors)
         self._usual = self._deep = 0.0
         self._outdoors = _large_patches((grid.states == FREE) & ~grid.universe, _CRUMB / grid.cell**2)
-        self._runs = [(p.facing, p.offset, s, e) for p in planes for s, e in p.walls.tolist()]
-        self._lines = _lines([_line(*run) for run in self._runs])
+        runs = [(p.facing, p.offset, s, e) for p in planes for s, e in p.walls.tolist()]
+        self._runs = {
+            f: np.array([run[1:] for run in runs if run[0] == f]).reshape(-1, 3) for f in Facing
+        }  # offset, start, end
+        self._lines = _lines([_line(*run) for run in runs])
         self._tree = shapely.STRtree(self._lines)
         seen = [p for p in planes if not p.speculated]
         strong = [p for p in seen if p.support >= min_support and not p.recess]
@@ -113,11 +117,11 @@ class RoomGrower:
             if not self._is_guessed(polygon):
                 continue
             near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
-            grown[k] = self.grow(polygon, shapely.union_all([grown[j] for j in np.sort(near) if j != k]))
+            grown[k] = self.grow(polygon, np.array([grown[j] for j in np.sort(near) if j != k], dtype=object))
         return grown
 
-    def grow(self, polygon: Any, others: Any) -> Any:
-        """``polygon`` completed, without touching ``others`` (one shapely geometry)."""
+    def grow(self, polygon: Any, others: Polygons) -> Any:
+        """``polygon`` completed, without touching ``others``."""
         polygon = shapely.orient_polygons(polygon)
         if not self._is_guessed(polygon):
             return polygon
@@ -131,7 +135,7 @@ class RoomGrower:
     def _is_guessed(self, polygon: Any) -> bool:
         return any(s.speculated for s in self._sides(polygon))
 
-    def _fill_notches(self, polygon: Any, others: Any) -> Any:
+    def _fill_notches(self, polygon: Any, others: Polygons) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
         sides = self._sides(polygon)  # a notch that is filled leaves the sides of the others as they are
         lines = _lines([(s.start, s.end) for s in sides])
@@ -175,7 +179,7 @@ class RoomGrower:
                 high[1 - along] = max(high[1 - along], a[1 - along])
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
-    def _push_sides(self, polygon: Any, others: Any) -> Any:
+    def _push_sides(self, polygon: Any, others: Polygons) -> Any:
         """The polygon with each guessed side pushed out as far as it goes."""
         for front in list(self._frontiers(polygon)):
             depth = self._depth(front, polygon, others)
@@ -193,7 +197,7 @@ class RoomGrower:
                 low, high = sorted((side.start[1 - a], side.end[1 - a]))
                 yield Frontier(facing, side.start[a], low, high, on_plane)
 
-    def _depth(self, front: Frontier, polygon: Any, others: Any) -> float:
+    def _depth(self, front: Frontier, polygon: Any, others: Polygons) -> float:
         """Metres by which a side goes out; 0 where it stays."""
         reach = self._before_regions(front, others, self._before_walls(front))
         reach = reach.within(self._to_own_side(front, polygon), _REACH)
@@ -252,32 +256,37 @@ class RoomGrower:
 
     def _before_walls(self, front: Frontier) -> Reach:
         """A wall that faces much of the side closes the room; any other keeps it from going on."""
-        reach, length = Reach(), front.high - front.low
-        for facing, offset, start, end in self._runs:
-            if facing.axis == front.facing.axis:
-                ahead = (offset - front.at) * front.out
-                faced = min(end, front.high) - max(start, front.low)
-                if ahead > _ON and faced > min(_WALL, length / 2):
-                    stop = ahead - (0.0 if facing == front.facing else self._walls.thickness)
-                    reach = reach.within(stop if faced > _FACES * length else np.inf, ahead)
-            elif front.low + _DEEP < offset < front.high - _DEEP:
-                near, far = sorted(((start - front.at) * front.out, (end - front.at) * front.out))
-                if far - max(near, 0.0) > _WALL:
-                    reach = reach.within(np.inf, max(near, 0.0))
+        length, reach = front.high - front.low, Reach()
+        for facing in (front.facing, front.facing.opposite):
+            offset, start, end = self._runs[facing].T
+            ahead = (offset - front.at) * front.out
+            faced = np.minimum(end, front.high) - np.maximum(start, front.low)
+            met = (ahead > _ON) & (faced > min(_WALL, length / 2))
+            closing = ahead[met & (faced > _FACES * length)]
+            gap = 0.0 if facing == front.facing else self._walls.thickness
+            reach = reach.within(closing.min(initial=np.inf) - gap, ahead[met].min(initial=np.inf))
+        for facing in (f for f in Facing if f.axis != front.facing.axis):
+            offset, *ends = self._runs[facing].T
+            near, far = np.sort((np.array(ends) - front.at) * front.out, axis=0)
+            near = np.maximum(near, 0.0)
+            beside = (front.low + _DEEP < offset) & (offset < front.high - _DEEP) & (far - near > _WALL)
+            reach = reach.within(np.inf, near[beside].min(initial=np.inf))
         return reach
 
-    def _before_regions(self, front: Frontier, others: Any, reach: Reach) -> Reach:
+    def _before_regions(self, front: Frontier, others: Polygons, reach: Reach) -> Reach:
         """Between two regions stands a wall."""
-        met = front.ahead(_REACH, min(_DEEP, (front.high - front.low) / 3)).intersection(others)
-        if met.is_empty:
+        strip = front.ahead(_REACH, min(_DEEP, (front.high - front.low) / 3))
+        met = shapely.intersection(others, strip)
+        met = met[~shapely.is_empty(met)]
+        if not len(met):
             return reach
         a = front.facing.axis
-        ahead = float(np.abs(np.array(met.bounds)[[a, a + 2]] - front.at).min())
+        ahead = float(np.abs(shapely.bounds(met)[:, [a, a + 2]] - front.at).min())
         return reach.within(ahead - self._walls.thickness, ahead)
 
-    def _unknown(self, part: Any, polygon: Any, others: Any) -> bool:
+    def _unknown(self, part: Any, polygon: Any, others: Polygons) -> bool:
         """True where nothing seen contradicts that ``part`` is floor of the room ``polygon``."""
-        if part.intersection(others).area > _EXACT:
+        if shapely.area(shapely.intersection(others, part)).sum() > _EXACT:
             return False
         window, inside = polygon_window(part, self._grid.origin, self._grid.cell, self._grid.states.shape)
         if np.count_nonzero(self._outdoors[window] & inside) > _OPEN * inside.sum():

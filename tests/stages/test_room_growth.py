@@ -22,7 +22,7 @@ def wall(name: str, facing: Facing, offset: float, start: float, end: float) -> 
 
 
 def grow(seen: Any, planes: list[LayoutPlane], others: Any = NOTHING, outdoors: Any = None) -> Any:
-    return grower(planes, outdoors).grow(seen, others)
+    return grower(planes, outdoors).grow(seen, np.array([others], dtype=object))
 
 
 def grower(
