@@ -28,7 +28,6 @@ from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
-Polygons = NDArray[np.object_]  # shapely's
 
 _REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
 _BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
@@ -80,6 +79,28 @@ class Reach:
         return Reach(min(self.stop, stop), min(self.limit, limit))
 
 
+class Neighbours:
+    """The regions around one, which it must not touch."""
+
+    def __init__(self, polygons: Sequence[Any]) -> None:
+        self._polygons = np.array(polygons, dtype=object)
+        self._bounds = shapely.bounds(self._polygons).reshape(-1, 4)
+
+    def within(self, part: Any) -> NDArray[np.object_]:
+        """What ``part`` has in common with each of those whose bounds it meets."""
+        return np.asarray(shapely.intersection(self._polygons[self._near(part)], part))
+
+    def bounds_within(self, part: Any) -> Float:
+        """(N, 4) the bounds of what the box ``part`` has in common with each that it meets."""
+        clipped = shapely.clip_by_rect(self._polygons[self._near(part)], *part.bounds)
+        return np.asarray(shapely.bounds(clipped[~shapely.is_empty(clipped)]))
+
+    def _near(self, part: Any) -> Bool:
+        x0, y0, x1, y1 = part.bounds
+        low, high = self._bounds[:, :2], self._bounds[:, 2:]
+        return np.asarray((low <= (x1, y1)).all(axis=1) & (high >= (x0, y0)).all(axis=1))
+
+
 class RoomGrower:
     """Completes regions with guessed sides."""
 
@@ -117,10 +138,10 @@ class RoomGrower:
             if not self._is_guessed(polygon):
                 continue
             near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
-            grown[k] = self.grow(polygon, np.array([grown[j] for j in np.sort(near) if j != k], dtype=object))
+            grown[k] = self.grow(polygon, Neighbours([grown[j] for j in near if j != k]))
         return grown
 
-    def grow(self, polygon: Any, others: Polygons) -> Any:
+    def grow(self, polygon: Any, others: Neighbours) -> Any:
         """``polygon`` completed, without touching ``others``."""
         polygon = shapely.orient_polygons(polygon)
         if not self._is_guessed(polygon):
@@ -135,7 +156,7 @@ class RoomGrower:
     def _is_guessed(self, polygon: Any) -> bool:
         return any(s.speculated for s in self._sides(polygon))
 
-    def _fill_notches(self, polygon: Any, others: Polygons) -> Any:
+    def _fill_notches(self, polygon: Any, others: Neighbours) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
         sides = self._sides(polygon)  # a notch that is filled leaves the sides of the others as they are
         lines = _lines([(s.start, s.end) for s in sides])
@@ -179,7 +200,7 @@ class RoomGrower:
                 high[1 - along] = max(high[1 - along], a[1 - along])
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
-    def _push_sides(self, polygon: Any, others: Polygons) -> Any:
+    def _push_sides(self, polygon: Any, others: Neighbours) -> Any:
         """The polygon with each guessed side pushed out as far as it goes."""
         for front in list(self._frontiers(polygon)):
             depth = self._depth(front, polygon, others)
@@ -197,7 +218,7 @@ class RoomGrower:
                 low, high = sorted((side.start[1 - a], side.end[1 - a]))
                 yield Frontier(facing, side.start[a], low, high, on_plane)
 
-    def _depth(self, front: Frontier, polygon: Any, others: Polygons) -> float:
+    def _depth(self, front: Frontier, polygon: Any, others: Neighbours) -> float:
         """Metres by which a side goes out; 0 where it stays."""
         reach = self._before_regions(front, others, self._before_walls(front))
         reach = reach.within(self._to_own_side(front, polygon), _REACH)
@@ -273,20 +294,19 @@ class RoomGrower:
             reach = reach.within(np.inf, near[beside].min(initial=np.inf))
         return reach
 
-    def _before_regions(self, front: Frontier, others: Polygons, reach: Reach) -> Reach:
+    def _before_regions(self, front: Frontier, others: Neighbours, reach: Reach) -> Reach:
         """Between two regions stands a wall."""
         strip = front.ahead(_REACH, min(_DEEP, (front.high - front.low) / 3))
-        met = shapely.intersection(others, strip)
-        met = met[~shapely.is_empty(met)]
+        met = others.bounds_within(strip)
         if not len(met):
             return reach
         a = front.facing.axis
-        ahead = float(np.abs(shapely.bounds(met)[:, [a, a + 2]] - front.at).min())
+        ahead = float(np.abs(met[:, [a, a + 2]] - front.at).min())
         return reach.within(ahead - self._walls.thickness, ahead)
 
-    def _unknown(self, part: Any, polygon: Any, others: Polygons) -> bool:
+    def _unknown(self, part: Any, polygon: Any, others: Neighbours) -> bool:
         """True where nothing seen contradicts that ``part`` is floor of the room ``polygon``."""
-        if shapely.area(shapely.intersection(others, part)).sum() > _EXACT:
+        if shapely.area(others.within(part)).sum() > _EXACT:
             return False
         window, inside = polygon_window(part, self._grid.origin, self._grid.cell, self._grid.states.shape)
         if np.count_nonzero(self._outdoors[window] & inside) > _OPEN * inside.sum():

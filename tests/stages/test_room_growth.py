@@ -10,7 +10,7 @@ import shapely
 
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, LayoutSegment, OccupancyGrid
 from floorplan_core.stages.region_sides import WallSurfaces
-from floorplan_core.stages.room_growth import RoomGrower
+from floorplan_core.stages.room_growth import Neighbours, RoomGrower
 
 THICK = 0.12  # what WallSurfaces takes where no wall was seen from both sides
 NOTHING = shapely.Polygon()
@@ -22,7 +22,7 @@ def wall(name: str, facing: Facing, offset: float, start: float, end: float) -> 
 
 
 def grow(seen: Any, planes: list[LayoutPlane], others: Any = NOTHING, outdoors: Any = None) -> Any:
-    return grower(planes, outdoors).grow(seen, np.array([others], dtype=object))
+    return grower(planes, outdoors).grow(seen, Neighbours([others]))
 
 
 def grower(
