@@ -164,7 +164,11 @@ def theme_tone(frame: Frame, label: str) -> str:
 
 
 def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int, int]], Spot]:
-    """(text, pixels, weight) of the lines that have room, else of the number, else none; and where."""
+    """(text, pixels, weight) of the lines that have room, else of the number, else none; and where.
+
+    A name that is made of a number comes with the area or not at all: the number says as much alone, and the
+    rooms of a small pane look alike.
+    """
     units, scale = frame.look.units, frame.camera.scale
     lines = [(tr_text(shape.name), NAME, 600), (format.area(shape.area, units), BODY, 400)]
     if shape.clear is not None:
@@ -172,7 +176,8 @@ def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int
             (" × ".join(format.length(v, units).removesuffix(" m") for v in shape.clear), SMALL, 400)
         )
     width, height = shape.spot.width * scale, shape.spot.height * scale
-    for n in range(len(lines), 0, -1):
+    least = 2 if shape.short.isdecimal() else 1
+    for n in range(len(lines), least - 1, -1):
         wide = max(text_size(*line)[0] for line in lines[:n])
         if wide + AIR <= width and sum(p * LEADING for _, p, _ in lines[:n]) <= height:
             return lines[:n], shape.spot

@@ -244,9 +244,10 @@ def test_a_picture_is_of_the_present_plan_even_before_it_is_built(qtbot, workben
 
 
 def test_dark_is_darker(qtbot, drawn):
+    app = QApplication.instance()
+    theme.apply_theme(app, "light")  # whatever a test before has left
     pane = opened(qtbot, FloorPlanView(drawn))
     light = array(pane.picture(400, 300))[..., :3].mean()
-    app = QApplication.instance()
     theme.apply_theme(app, "dark")
     try:
         assert array(pane.picture(400, 300))[..., :3].mean() < 0.5 * light
