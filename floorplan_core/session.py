@@ -72,7 +72,7 @@ class PlanningSession:
             return cls(empty, config, grid_map)
         opened = open_survey(path, trajectory, config.input, observer, default_registry())
         if not kernels_compiled():
-            observer.stage_started("compile")  # the first run of a version: about a minute
+            observer.stage_started("compile")  # the first run of a version: one to two minutes
         return cls(opened, config)
 
     def must_read_again(self, config: Config) -> bool:

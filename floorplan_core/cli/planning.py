@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan, Reconstruction
 
 Clock = dict[str, float]
-COMPILES_FIRST = "The first run compiles the kernels, which takes about a minute."
+COMPILES_FIRST = "The first run compiles the kernels, which takes one to two minutes."
 COMPILES_MORE = "This input needs kernels that no earlier run did: they are compiled now, once."
 
 
