@@ -121,6 +121,9 @@ class RoomGrower:
         self._runs = {
             f: np.array([run[1:] for run in runs if run[0] == f]).reshape(-1, 3) for f in Facing
         }  # offset, start, end
+        self._across = {
+            axis: np.concatenate([self._runs[f] for f in Facing if f.axis != axis]) for axis in (0, 1)
+        }
         self._lines = _lines([_line(*run) for run in runs])
         self._tree = shapely.STRtree(self._lines)
         seen = [p for p in planes if not p.speculated]
@@ -134,9 +137,6 @@ class RoomGrower:
         self._usual, self._deep = self._usual_sizes(grown)
         boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
         for k, polygon in enumerate(map(shapely.orient_polygons, polygons)):
-            grown[k] = polygon
-            if not self._is_guessed(polygon):
-                continue
             near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
             grown[k] = self.grow(polygon, Neighbours([grown[j] for j in near if j != k]))
         return grown
@@ -220,7 +220,10 @@ class RoomGrower:
 
     def _depth(self, front: Frontier, polygon: Any, others: Neighbours) -> float:
         """Metres by which a side goes out; 0 where it stays."""
-        reach = self._before_regions(front, others, self._before_walls(front))
+        reach = self._before_walls(front)
+        if min(reach.stop, reach.limit) <= _ON:
+            return 0.0
+        reach = self._before_regions(front, others, reach)
         reach = reach.within(self._to_own_side(front, polygon), _REACH)
         if front.borrowed:
             return self._strip(front, reach.stop) if reach.stop <= reach.limit else 0.0
@@ -286,13 +289,13 @@ class RoomGrower:
             closing = ahead[met & (faced > _FACES * length)]
             gap = 0.0 if facing == front.facing else self._walls.thickness
             reach = reach.within(closing.min(initial=np.inf) - gap, ahead[met].min(initial=np.inf))
-        for facing in (f for f in Facing if f.axis != front.facing.axis):
-            offset, *ends = self._runs[facing].T
-            near, far = np.sort((np.array(ends) - front.at) * front.out, axis=0)
-            near = np.maximum(near, 0.0)
-            beside = (front.low + _DEEP < offset) & (offset < front.high - _DEEP) & (far - near > _WALL)
-            reach = reach.within(np.inf, near[beside].min(initial=np.inf))
-        return reach
+        offset, start, end = self._across[front.facing.axis].T
+        near, far = (
+            (start - front.at, end - front.at) if front.out > 0 else (front.at - end, front.at - start)
+        )
+        near = np.maximum(near, 0.0)
+        beside = (front.low + _DEEP < offset) & (offset < front.high - _DEEP) & (far - near > _WALL)
+        return reach.within(np.inf, near[beside].min(initial=np.inf))
 
     def _before_regions(self, front: Frontier, others: Neighbours, reach: Reach) -> Reach:
         """Between two regions stands a wall."""
