@@ -81,14 +81,14 @@ def open_polygon(polygon: Any, width: float) -> Any:
     """
     if width <= 0:
         return polygon
-    if (bounds := _as_rectangle(polygon)) is not None and _narrow_side(polygon) > 2 * width:
+    if (bounds := as_rectangle(polygon)) is not None and _narrow_side(polygon) > 2 * width:
         return _opened_rectangle(*bounds, width / 2)
     shrunk = shapely.difference(polygon, shapely.union_all(_borders(polygon, width / 2)))
     grown = shapely.union_all([shrunk, *_borders(shrunk, width / 2)])
     return shapely.set_precision(grown, _EXACT)
 
 
-def _as_rectangle(shape: Any) -> tuple[float, float, float, float] | None:
+def as_rectangle(shape: Any) -> tuple[float, float, float, float] | None:
     """x0, y0, x1, y1 of a polygon, or of a multi-polygon of one, that is a rectangle along the axes."""
     if shapely.get_num_coordinates(shape) != 5 or shapely.get_num_geometries(shape) != 1:
         return None

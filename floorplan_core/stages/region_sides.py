@@ -129,14 +129,13 @@ class KnownSides:
 
     def __init__(self, walls: WallSurfaces, doors: Sequence[Door]) -> None:
         self._walls, self._doors = walls, doors_of(doors)
-        self._known: dict[bytes, tuple[RegionSide, ...]] = {}
+        self._known: dict[Any, tuple[RegionSide, ...]] = {}  # by polygon
 
     def of(self, polygon: Any) -> tuple[RegionSide, ...]:
         """What :func:`sides_of` says of ``polygon``."""
-        key = polygon.wkb
-        if key not in self._known:
-            self._known[key] = _sides(polygon, self._walls, self._doors)
-        return self._known[key]
+        if polygon not in self._known:
+            self._known[polygon] = _sides(polygon, self._walls, self._doors)
+        return self._known[polygon]
 
 
 def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[RegionSide, ...]:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.geometry.raster import polygon_window
-from floorplan_core.geometry.rectilinear import polygons_of
+from floorplan_core.geometry.rectilinear import as_rectangle, polygons_of
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
 from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 
@@ -30,6 +30,7 @@ Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
 
 _REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
+_FAR = 3 * _REACH  # m around a room, where the regions are that it must not touch
 _BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
 _ON = 0.08  # m between a side and a plane on which it lies
 _DEEP = 0.15  # m: a wall less deep in the new part is its side
@@ -137,7 +138,8 @@ class RoomGrower:
         self._usual, self._deep = self._usual_sizes(grown)
         boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
         for k, polygon in enumerate(map(shapely.orient_polygons, polygons)):
-            near = boxes.query(shapely.box(*polygon.bounds).buffer(3 * _REACH))
+            x0, y0, x1, y1 = polygon.bounds
+            near = boxes.query(shapely.box(x0 - _FAR, y0 - _FAR, x1 + _FAR, y1 + _FAR))
             grown[k] = self.grow(polygon, Neighbours([grown[j] for j in near if j != k]))
         return grown
 
@@ -158,9 +160,12 @@ class RoomGrower:
 
     def _fill_notches(self, polygon: Any, others: Neighbours) -> Any:
         """The polygon with the parts of its bounding box that only guessed sides cut off."""
+        if as_rectangle(polygon) is not None:  # most rooms
+            return polygon
+        notches = polygons_of(shapely.difference(shapely.box(*polygon.bounds), polygon))
         sides = self._sides(polygon)  # a notch that is filled leaves the sides of the others as they are
         lines = _lines([(s.start, s.end) for s in sides])
-        for notch in polygons_of(shapely.difference(shapely.box(*polygon.bounds), polygon)):
+        for notch in notches:
             contact = shapely.length(shapely.intersection(lines, notch))
             known = float(contact @ np.array([s.observed for s in sides]))
             if known < _KNOWN * contact.sum() and self._unknown(notch, polygon, others):
@@ -237,7 +242,7 @@ class RoomGrower:
 
     def _strip(self, front: Frontier, depth: float) -> float:
         """``depth`` where a strip lies ahead that has no door and is too narrow for a room; else 0."""
-        if depth > _STRIP * self._usual:
+        if not _ON < depth <= _STRIP * self._usual:
             return 0.0
         beside = front.ahead(depth).buffer(_BESIDE)
         return 0.0 if shapely.intersects(beside, self._doors).any() else depth
