@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 
 from floorplan_core.geometry.columns import height_mask
@@ -23,10 +26,21 @@ def drawn(free: list[Box], planes: list[LayoutPlane], viewpoints: bool = True) -
         grid = walls if plane.facing.axis == 0 else walls.T
         for start, end in plane.walls:
             grid[round(start / CELL) : round(end / CELL), int(plane.offset / CELL - 1e-9)] = TALL
-    none = np.zeros((0, 2))
+    return seen_free(
+        cells & ~walls,
+        hits=np.repeat(np.repeat(walls, 2, axis=0), 2, axis=1),
+        occupied=walls,
+        inferred=not viewpoints,
+        viewpoints=viewpoints,
+    )
+
+
+def seen_free(free: np.ndarray, **fields: Any) -> Evidence:
+    """Columns (ny, nx) of which nothing but free space was seen; ``fields`` say what else there is."""
+    none, (ny, nx) = np.zeros((0, 2)), free.shape
     frame = ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 1.0, 0.0, None)
-    return Evidence(
+    bare = Evidence(
         frame, np.zeros((0, 3)), np.zeros(0, dtype=np.int32), none, none, 0.05, np.zeros(2), CELL / 2,
-        np.repeat(np.repeat(walls, 2, axis=0), 2, axis=1), CELL, cells & ~walls, walls, none,
-        not viewpoints, viewpoints,
+        np.zeros((2 * ny, 2 * nx), dtype=np.uint64), CELL, free, np.zeros_like(free), none, False, True,
     )  # fmt: skip
+    return replace(bare, **fields)

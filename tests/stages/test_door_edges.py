@@ -13,6 +13,7 @@ from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures
 from floorplan_core.stages.doors import Candidate, merge_faces
+from tests.drawn_cells import seen_free
 
 EXACT = 0.015  # m
 START, END = 2.0, 2.9  # of the door
@@ -39,22 +40,13 @@ def _evidence(xyz: np.ndarray, noise: float = 0.005) -> Evidence:
     n, shape = len(xyz), (50, 50)
     open_ = np.zeros(shape, dtype=np.uint64)
     open_[round(START / 0.1) + 1 : round(END / 0.1) - 1] = ~np.uint64(0)
-    return Evidence(
+    return seen_free(
+        open_,
         frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 50.0, 0.0, 2.6),
         xyz=xyz + rng.normal(0, noise, xyz.shape),
         count=np.full(n, 8, dtype=np.int32),
         spread=np.zeros((n, 2)),
         view=np.zeros((n, 2)),
-        surfel=0.05,
-        origin=np.zeros(2),
-        fine=0.05,
-        hits=np.zeros((100, 100), dtype=np.uint64),
-        cell=0.1,
-        free=open_,
-        occupied=np.zeros(shape, dtype=np.uint64),
-        path=np.zeros((0, 2)),
-        inferred=False,
-        viewpoints=True,
     )
 
 

@@ -7,9 +7,10 @@ import pytest
 
 from floorplan_core.config import OccupancyConfig
 from floorplan_core.geometry.columns import height_mask
-from floorplan_core.model import FREE, Door, Facing, LayoutPlane, ManhattanFrame, OccupancyGrid
+from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.occupancy import slice_map
+from tests.drawn_cells import seen_free
 
 CELL, SIZE = 0.1, 62
 LEFT = (slice(0, 30), slice(0, 30))
@@ -30,24 +31,7 @@ def evidence(
     free[rows, columns] = height_mask(low, high)
     if floor:
         hits[2 * rows.start : 2 * rows.stop, 2 * columns.start : 2 * columns.stop] = FLOOR
-    nothing = np.zeros((0, 2))
-    return Evidence(
-        frame=ManhattanFrame(np.eye(3), 0.0, 0.0, floor_z=0.0, ceiling_z=None, support=1.0, wall_area=10.0),
-        xyz=np.zeros((0, 3)),
-        count=np.zeros(0, dtype=np.int32),
-        spread=nothing,
-        view=nothing,
-        surfel=0.05,
-        origin=np.zeros(2),
-        fine=0.05,
-        hits=hits,
-        cell=CELL,
-        free=free,
-        occupied=np.zeros_like(free),
-        path=np.array([[1.5, 1.5]]),
-        inferred=inferred,
-        viewpoints=True,
-    )
+    return seen_free(free, hits=hits, cell=CELL, path=np.array([[1.5, 1.5]]), inferred=inferred)
 
 
 def sliced(found: Evidence, plane: LayoutPlane, *doors: Door) -> OccupancyGrid:

@@ -8,8 +8,8 @@ import pytest
 from floorplan_core.config import SegmentsConfig
 from floorplan_core.geometry.columns import height_mask
 from floorplan_core.model import Facing, ManhattanFrame
-from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.structure import Patches, in_line, judge
+from tests.drawn_cells import seen_free
 
 
 @pytest.mark.parametrize(
@@ -29,23 +29,7 @@ def test_a_wall_is_looked_over_where_both_columns_behind_it_are_free(columns, ro
     patch = Patches(
         *(np.array([0]), np.array([0, rows]), np.arange(rows), seen, np.array([rows * levels * 0.005]))
     )
-    evidence = Evidence(
-        frame=ManhattanFrame(np.eye(3), 0.0, 0.0, floor_z=0.0, ceiling_z=2.8, support=1.0, wall_area=10.0),
-        xyz=np.zeros((0, 3)),
-        count=np.zeros(0, dtype=np.int32),
-        spread=np.zeros((0, 2)),
-        view=np.zeros((0, 2)),
-        surfel=0.05,
-        origin=np.zeros(2),
-        fine=0.05,
-        hits=np.zeros((40, 40), dtype=np.uint64),
-        cell=0.1,
-        free=free,
-        occupied=np.zeros_like(free),
-        path=np.zeros((0, 2)),
-        inferred=False,
-        viewpoints=True,
-    )
+    evidence = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 2.8))
     ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([1.0]), SegmentsConfig())
     assert found == structure
 
