@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -26,7 +27,7 @@ def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: 
     started = perf_counter()
     observer.stage_started("export", len(names) + 1)
     with writing(folder.parent / PLAN_FILE):
-        intermediates.save(plan, folder / PLAN_FILE)
+        intermediates.save(replace(plan, seconds={}), folder / PLAN_FILE)  # the same run, the same bytes
     for done, name in enumerate(names, start=1):
         observer.check_cancelled()
         observer.progress("export", done)

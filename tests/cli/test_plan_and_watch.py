@@ -91,7 +91,7 @@ def test_the_saved_plan_is_exported_again_to_the_same_bytes(planned: Path, tmp_p
 def test_the_same_input_gives_the_same_bytes(survey: Path, planned: Path, tmp_path: Path) -> None:
     assert main.run(["plan", str(survey), "--out", str(tmp_path), "--no-pictures", "--quiet"]) == 0
     assert names(tmp_path) == FILES - {"planes.png", "occupancy.png", "plan.png"}
-    for name in ("plan.geojson", "plan.svg"):
+    for name in ("plan.geojson", "plan.svg", "plan.floorplan"):
         assert (tmp_path / name).read_bytes() == (planned / name).read_bytes()
 
 
