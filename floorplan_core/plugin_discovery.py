@@ -76,6 +76,7 @@ def _ask(plugin: Any, status: PluginStatus) -> list[Any]:
         for thing in (t for result in getattr(manager.hook, hook)() for t in result):
             _check(thing, kind, protocol)
             status.brings.append(f"{kind.split()[-1]} {thing.name}")
+            status.about.append(str(thing.description))
             things.append(thing)
     if not manager.get_hookcallers(plugin):
         raise TypeError("it has none of the hooks " + ", ".join(_KINDS))

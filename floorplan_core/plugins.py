@@ -97,6 +97,7 @@ class PluginStatus:
     name: str
     origin: str  # "shipped", "installed" or "user folder"
     brings: list[str] = field(default_factory=list)
+    about: list[str] = field(default_factory=list)  # of each of ``brings``, what it says of itself
     error: str = ""  # why it was switched off; "" while it works
 
     @property

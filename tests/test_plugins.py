@@ -53,7 +53,9 @@ def test_what_ships_is_found_and_works() -> None:
 def test_a_plugin_of_the_user_writes_a_plan(plugin_folder: Path, tmp_path: Path) -> None:
     put(plugin_folder, "table", WORKING)
     registry = default_registry()
-    assert status(registry, "table") == PluginStatus("table", "user folder", ["exporter csv"])
+    assert status(registry, "table") == PluginStatus(
+        "table", "user folder", ["exporter csv"], ["Areas as a table."]
+    )
     registry.exporter(Path("rooms.csv")).write(factories.small_flat(), tmp_path / "rooms.csv")
     assert (tmp_path / "rooms.csv").read_text().startswith("Living & dining,14.28")
 

@@ -23,9 +23,8 @@ def plugins(
     table = Table("plugin", "from", "brings", "state", title=f"Plugins (your own go into {folder})")
     for status in registry.statuses:
         state = "works" if status.enabled else f"switched off: {status.error}"
-        table.add_row(*map(Text, (status.name, status.origin, "\n".join(status.brings), state)))
-    rows = [
-        {"name": s.name, "origin": s.origin, "brings": s.brings, "enabled": s.enabled, "error": s.error}
-        for s in registry.statuses
-    ]
+        brings = "\n".join(f"{n} – {a}" for n, a in zip(status.brings, status.about, strict=True))
+        table.add_row(*map(Text, (status.name, status.origin, brings, state)))
+    shown = ("name", "origin", "brings", "about", "enabled", "error")
+    rows = [{name: getattr(status, name) for name in shown} for status in registry.statuses]
     console.table({"plugins": rows, "user_folder": str(folder)}, table)

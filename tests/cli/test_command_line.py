@@ -275,12 +275,13 @@ def test_plugins_as_table_and_json(capfd: pytest.CaptureFixture[str], plugin_fol
     (plugin_folder / "broken.py").write_text("1 / 0")
     assert main.run(["plugins"]) == 0
     text = capfd.readouterr().out
-    assert "switched off: ZeroDivisionError" in text and "exporter SVG" in text
+    assert "switched off: ZeroDivisionError" in text and "exporter SVG – A drawing" in text
     assert main.run(["plugins", "--json"]) == 0
     out, err = capfd.readouterr()
     listed = {p["name"]: p for p in json.loads(out)["plugins"]}
     assert listed["broken"]["error"] and not listed["broken"]["enabled"]
     assert listed["svg"]["enabled"] and err == ""
+    assert listed["carmen"]["about"] == ["CARMEN logs: planar scans with corrected poses, also gzipped"]
     assert main.run(["plugins", "--quiet"]) == 0
     assert capfd.readouterr() == ("", "")
 
