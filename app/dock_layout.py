@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar, QWidget
@@ -14,12 +15,13 @@ HIDDEN = {  # panes that a workspace does without
     "run": ("planes", "free_space", "evidence", "settings", "layers"),
 }
 
+LISTS = ("region_list", "door_list", "plane_list", "ground_truth", "warnings", "history")  # one row of tabs
 SIDES = ("layers", "properties")  # panes whose width is for words, not for the plan
 SETTLED = 40  # ms after which Qt has laid out a window of another size
 TALL = (  # panes above each other
-    "space", "free_space", "planes", "floor_plan", "items", "ground_truth", "warnings", "history", "timeline",
+    "space", "free_space", "planes", "floor_plan", *LISTS, "timeline",
 )  # fmt: skip
-TABLES = {"inspect": 0.24, "plan": 0.24, "run": 0.2}  # of the window's height, for the tables at the bottom
+TABLES = {"inspect": 0.25, "plan": 0.25, "run": 0.2}  # of the window's height, for the tables at the bottom
 LINE = {"inspect": 0.1, "plan": 0.1, "run": 0.25}  # for the timeline, where it is shown
 
 
@@ -45,11 +47,12 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
     window.splitDockWidget(docks["evidence"], docks["settings"], V)
     window.tabifyDockWidget(docks["evidence"], docks["settings"])
     docks["evidence"].raise_()
-    window.addDockWidget(bottom, docks["items"])
-    window.splitDockWidget(docks["items"], docks["timeline"], V)  # before there are tabs: it would become one
-    for id in ("ground_truth", "warnings", "history"):
-        window.tabifyDockWidget(docks["items"], docks[id])
-    docks["items"].raise_()
+    first = docks[LISTS[0]]
+    window.addDockWidget(bottom, first)
+    window.splitDockWidget(first, docks["timeline"], V)  # before there are tabs: it would become one
+    for before, id in pairwise(LISTS):
+        window.tabifyDockWidget(docks[before], docks[id])
+    first.raise_()
     for id, dock in docks.items():
         dock.setVisible(id not in HIDDEN[workspace])
     _resize(window, docks, workspace)
@@ -70,7 +73,7 @@ def _resize(window: QMainWindow, docks: Mapping[str, QDockWidget], workspace: st
         line = 0
     else:
         window.resizeDocks([docks["timeline"]], [line], V)
-    window.resizeDocks([docks["floor_plan"], docks["items"]], [height - tables - line, tables], V)
+    window.resizeDocks([docks["floor_plan"], docks[LISTS[0]]], [height - tables - line, tables], V)
     half = (height - tables - line) // 2
     for above, below in (("space", "free_space"), ("planes", "floor_plan"), ("properties", "evidence")):
         if not {above, below} & set(HIDDEN[workspace]):

@@ -27,7 +27,7 @@ from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.recovery_banner import RecoveryBanner
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.toast import Toast
-from floorcast_app.panes import PANES
+from floorcast_app.panes import FORMER, PANES
 from floorcast_app.qt_actions import QtActions
 from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
@@ -52,6 +52,7 @@ MENU_GROUPS = (  # actions that begin a group of their menu
     "help.about",
 )  # fmt: skip
 SUBMENUS = {"view.layer_": "Layers", "view.colour_": "Points by colour"}  # ids that begin so, and their menu
+DOCKS = 1  # version of the arrangement: one that was kept of other docks is not taken
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
@@ -98,17 +99,15 @@ class MainWindow(QMainWindow):
 
     def pane(self, id: str) -> QWidget:
         """The widget of a pane; :class:`UsageError` where there is none of that name."""
-        if id not in self.docks:
-            raise UsageError(f"There is no pane {id!r}; the panes are: {', '.join(self.docks)}.")
-        widget = self.docks[id].widget()
+        widget = self._dock_of(id).widget()
         assert widget is not None
         return widget
 
     def show_pane(self, id: str) -> None:
         """Bring a pane to the front."""
-        self.pane(id)
-        self.docks[id].show()
-        self.docks[id].raise_()
+        dock = self._dock_of(id)
+        dock.show()
+        dock.raise_()
 
     def picture(self, pane: str, width: int, height: int, scale_bar: bool | None = None) -> QImage:
         """A picture of a pane, or of the whole window ("window").
@@ -221,13 +220,13 @@ class MainWindow(QMainWindow):
         if before.theme != after.theme:
             self.dresser.change(after.theme)
         if before.workspace != after.workspace:
-            self._settings.setValue(f"workspace/{before.workspace}", self.saveState())
+            self._settings.setValue(f"workspace/{before.workspace}", self.saveState(DOCKS))
             self._arrange(after.workspace)
 
     def _arrange(self, workspace: str) -> None:
         kept = self._settings.value(f"workspace/{workspace}")
         before = [bar for bar in tab_bars(self) if bar.count()]
-        if not (isinstance(kept, QByteArray) and self.restoreState(kept)):
+        if not (isinstance(kept, QByteArray) and self.restoreState(kept, DOCKS)):
             arrange(self, self.docks, workspace)
             return
         for bar in before:  # Qt makes new ones and forgets to take these away
@@ -239,10 +238,19 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{name}[*] – Floorcast" if name else "Floorcast[*]")
         self.setWindowModified(self.workbench.has_edits)
 
+    def _dock_of(self, id: str) -> QDockWidget:
+        id = FORMER.get(id, id)
+        if id not in self.docks:
+            raise UsageError(f"There is no pane {id!r}; the panes are: {', '.join(self.docks)}.")
+        return self.docks[id]
+
     def _dock(self, id: str, title: str, widget: QWidget) -> QDockWidget:
         dock = QDockWidget(tr(title), self)
         dock.setObjectName(id)
         dock.setWidget(widget)
+        seen = getattr(widget, "seen", None)
+        if seen is not None:
+            dock.visibilityChanged.connect(seen)
         return dock
 
     def _fill_menus(self) -> None:
@@ -326,7 +334,7 @@ class MainWindow(QMainWindow):
     def _remember(self) -> None:
         look = self.workbench.view.look
         self._settings.setValue("window/geometry", self.saveGeometry())
-        self._settings.setValue(f"workspace/{look.workspace}", self.saveState())
+        self._settings.setValue(f"workspace/{look.workspace}", self.saveState(DOCKS))
         self._settings.setValue("look/theme", look.theme)
         self._settings.setValue("look/units", look.units)
 

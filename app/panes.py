@@ -37,9 +37,13 @@ PANES = (
     Pane("properties", "Selection", "right", "panels.properties_panel:PropertiesPanel"),
     Pane("evidence", "Door evidence", "right", "viewports.evidence_view:EvidenceView"),
     Pane("settings", "Settings", "right", "panels.settings_panel:SettingsPanel"),
-    Pane("items", "Regions, doors, planes", "tables", "panels.items_panel:ItemsPanel"),
+    Pane("region_list", "Regions", "tables", "panels.items_panel:RegionList"),
+    Pane("door_list", "Doors", "tables", "panels.items_panel:DoorList"),
+    Pane("plane_list", "Planes", "tables", "panels.items_panel:PlaneList"),
     Pane("ground_truth", "Ground truth", "tables", "panels.ground_truth_panel:GroundTruthPanel"),
     Pane("warnings", "Warnings", "tables", "panels.warnings_panel:WarningsPanel"),
     Pane("history", "History", "tables", "panels.history_panel:HistoryPanel"),
     Pane("timeline", "Timeline", "bottom", "panels.timeline_panel:TimelinePanel"),
 )
+
+FORMER = {"items": "region_list"}  # names that scripts may still use

@@ -8,7 +8,7 @@ from typing import Any
 import shiboken6
 from PySide6.QtCore import QPoint, Qt, QTimer
 from PySide6.QtGui import QColor, QImage, QPainter
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from floorcast_app import theme
 from floorcast_app.events import Event
@@ -88,6 +88,13 @@ def set_role(widget: QWidget, role: str) -> None:
         widget.setProperty("role", role)
         widget.style().unpolish(widget)
         widget.style().polish(widget)
+
+
+def retitle(panel: QWidget, title: str) -> None:
+    """Another title for the dock that a panel stands in, if it does."""
+    dock = panel.parentWidget()
+    if isinstance(dock, QDockWidget) and dock.windowTitle() != title:
+        dock.setWindowTitle(title)
 
 
 def rule() -> QFrame:

@@ -1,14 +1,15 @@
-"""Regions, doors and planes as lists: sorted, filtered, with eyes, locks, pins, and the shared selection."""
+"""Regions, doors, planes: a list each, sorted, filtered, with eyes, locks, pins and the shared selection."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPoint, QSize, Qt
-from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QLineEdit, QTableView, QTabWidget, QWidget
+from PySide6.QtGui import QImage, QMouseEvent, QShowEvent
+from PySide6.QtWidgets import QAbstractItemView, QDockWidget, QHeaderView, QMainWindow, QTableView, QWidget
 
-from floorcast_app import icons, theme
-from floorcast_app.panels.base import GRID, Panel, column, listener_of, row
+from floorcast_app import theme
+from floorcast_app.panels.base import GRID, Panel, column, listener_of, retitle
 from floorcast_app.panels.by_hand import is_locked
+from floorcast_app.panels.filter_field import FilterField
 from floorcast_app.panels.item_columns import things
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, LOCKABLE, OWN, ItemFilter, ItemModel
@@ -17,9 +18,9 @@ from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.workbench import Workbench
 
-TABS = {"region": "Regions", "door": "Doors", "plane": "Planes"}
+TITLES = {"region": "Regions", "door": "Doors", "plane": "Planes"}
 ROW_HEIGHT = 28  # px
-FILTER_HEIGHT = 28  # px: no higher than the tabs beside it
+HEADER_HEIGHT = 32  # px: the filter stands in it
 ARROW_WIDTH = 16  # px of the arrow of the sorted column
 PIN_WIDTH = 22  # px of the pin of a corrected thing
 MARK_WIDTH = 30  # px of the columns with an eye and a lock
@@ -42,6 +43,7 @@ class ItemTable(QTableView):
         self.doubleClicked.connect(lambda i: workbench.selection.zoom_asked.emit(i.data(ITEM_ROLE)))
         self.customContextMenuRequested.connect(self._menu)
         self._following = False
+        self.leads = False  # the selection changes because of this list
         self.stale = True  # the plan is another one than the rows'
         self.selectionModel().selectionChanged.connect(self._picked)
 
@@ -102,6 +104,7 @@ class ItemTable(QTableView):
         self.verticalHeader().setDefaultSectionSize(ROW_HEIGHT)
         header = self.horizontalHeader()
         header.setHighlightSections(False)
+        header.setFixedHeight(HEADER_HEIGHT)
         header.setMinimumSectionSize(MARK_WIDTH)
         header.setStretchLastSection(not self.rows.columns[-1].number)
         for mark in (EYE, LOCK):
@@ -121,11 +124,11 @@ class ItemTable(QTableView):
         current = self.currentIndex().data(ITEM_ROLE)
         chosen.sort(key=lambda item: item == current)  # the one clicked last leads
         selection = self._workbench.selection
-        self._following = True
+        self._following = self.leads = True
         selection.select(None if not chosen else chosen[0])
         for item in chosen[1:]:
             selection.select(item, add=True)
-        self._following = False
+        self._following = self.leads = False
 
     def _clicked(self, index: QModelIndex) -> None:
         item = index.data(ITEM_ROLE)
@@ -148,32 +151,17 @@ class ItemTable(QTableView):
             item_menu(self._workbench, item, self).popup(self.viewport().mapToGlobal(at))
 
 
-class ItemsPanel(Panel):
-    """The three lists in tabs, with one filter."""
+class ListPanel(Panel):
+    """One list; its dock's title says how long it is."""
+
+    kind = ""  # of the things listed
 
     def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
         super().__init__(workbench, parent)
-        self.tabs = QTabWidget()
-        self.tables = {kind: ItemTable(workbench, kind) for kind in TABS}
-        for kind, table in self.tables.items():
-            self.tabs.addTab(table, tr(TABS[kind]))
-        self.search = QLineEdit()
-        self.search.setPlaceholderText(tr("Filter"))
-        self.search.setClearButtonEnabled(True)
-        self.search.setMaximumWidth(200)
-        self.search.addAction(
-            icons.icon("search", theme.colours().faint), QLineEdit.ActionPosition.LeadingPosition
-        )
+        self.table = ItemTable(workbench, self.kind)
+        column(self, 0, 0).addWidget(self.table)
+        self.search = FilterField(self.table.horizontalHeader(), self)
         self.search.textChanged.connect(self._filter)
-        corner = QWidget()
-        line = row(self.search)
-        line.setContentsMargins(0, 0, GRID, 1)
-        self.search.setFixedHeight(FILTER_HEIGHT)
-        corner.setLayout(line)
-        self.tabs.setCornerWidget(corner)
-        self.tabs.setDocumentMode(True)
-        self.tabs.currentChanged.connect(self._freshen)
-        column(self, 0, 0).addWidget(self.tabs)
         self.listen(workbench.plan_changed)
         self.listen(workbench.selection.changed, then=self._follow)
         self.listen(workbench.view.changed, then=self._look_changed)
@@ -181,35 +169,70 @@ class ItemsPanel(Panel):
         self.refresh()
 
     def refresh(self) -> None:
-        for at, (kind, table) in enumerate(self.tables.items()):
-            count = len(things(self.workbench.plan, kind))
-            self.tabs.setTabText(at, f"{tr(TABS[kind])} {count}" if count else tr(TABS[kind]))
-            table.stale = True
-        self._freshen()
+        count = len(things(self.workbench.plan, self.kind))
+        title = tr(TITLES[self.kind])
+        retitle(self, f"{title} ({count})" if count else title)
+        self.table.stale = True
+        self.seen(not self.visibleRegion().isEmpty())
 
-    def _freshen(self, *_: object) -> None:
-        """Only the list that is seen is filled: a hospital has hundreds of planes."""
-        table = self.tabs.currentWidget()
-        assert isinstance(table, ItemTable)
-        table.freshen()
+    def seen(self, visible: bool) -> None:
+        """It is in front now, or not: only then it is filled, as a hospital has hundreds of planes."""
+        if visible:
+            self.table.freshen()
+            self.search.settle()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self.refresh_soon()
+
+    def picture(self, width: int, height: int) -> QImage:
+        """The list as a picture, ratio 1, of the present plan also where it lies behind others."""
+        self.table.freshen()
+        return super().picture(width, height)
+
+    # ---- inside -----------------------------------------------------------------------------------------
 
     def _follow(self) -> None:
-        item = self.workbench.selection.item
-        if any(table._following for table in self.tables.values()):
+        if self.table.leads:
             return  # it came from here
-        if item is not None and item.kind in self.tables:
-            self.tabs.setCurrentWidget(self.tables[item.kind])
-        for table in self.tables.values():
-            table.follow()
+        item = self.workbench.selection.item
+        if item is not None and item.kind == self.kind:
+            self._come_forward()
+        self.table.follow()
+
+    def _come_forward(self) -> None:
+        """Take the place of another list that is in front; never that of warnings or checks."""
+        dock = self.parentWidget()
+        window = dock.parentWidget() if dock is not None else None
+        if isinstance(dock, QDockWidget) and isinstance(window, QMainWindow):
+            others = [d for d in window.tabifiedDockWidgets(dock) if isinstance(d.widget(), ListPanel)]
+            if any(not d.visibleRegion().isEmpty() for d in others):
+                dock.raise_()
 
     def _filter(self, text: str) -> None:
-        for table in self.tables.values():
-            table.filter.set_text(text)
-            table.follow()
+        self.table.filter.set_text(text)
+        self.table.follow()
 
     def _look_changed(self, before: Look, after: Look) -> None:
         if before.units != after.units:
             self.refresh_soon()
         elif before.hidden != after.hidden:
-            for table in self.tables.values():
-                table.rows.repaint_marks()
+            self.table.rows.repaint_marks()
+
+
+class RegionList(ListPanel):
+    """The regions."""
+
+    kind = "region"
+
+
+class DoorList(ListPanel):
+    """The doors and openings."""
+
+    kind = "door"
+
+
+class PlaneList(ListPanel):
+    """The layout planes, those of wings too."""
+
+    kind = "plane"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QDockWidget, QLabel, QListWidget, QListWidgetItem, QWidget
+from PySide6.QtWidgets import QLabel, QListWidget, QListWidgetItem, QWidget
 
 from floorcast_app import icons, theme
-from floorcast_app.panels.base import GRID, Panel, column, label
+from floorcast_app.panels.base import GRID, Panel, column, label, retitle
 from floorcast_app.translation import tr, tr_text
 from floorcast_app.workbench import Workbench
 
@@ -41,12 +41,8 @@ class WarningsPanel(Panel):
             self.list.addItem(QListWidgetItem(icons.icon("triangle-alert", holds.warning), tr_text(text)))
         self.list.setVisible(self.list.count() > 0)
         self.nothing.setVisible(self.list.count() == 0)
-        self._retitle(len(self.workbench.warnings))
-
-    def _retitle(self, count: int) -> None:
-        dock = self.parentWidget()
-        if isinstance(dock, QDockWidget):
-            dock.setWindowTitle(tr("Warnings ({n})").format(n=count) if count else tr("Warnings"))
+        count = len(self.workbench.warnings)
+        retitle(self, tr("Warnings ({n})").format(n=count) if count else tr("Warnings"))
 
     def _copy(self) -> None:
         rows = self.list.selectedItems() or [self.list.item(i) for i in range(self.list.count())]

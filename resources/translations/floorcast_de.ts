@@ -1863,10 +1863,6 @@
    <translation>Die Regionen {0} berühren sich nicht: Sie lassen sich nicht vereinen.</translation>
   </message>
   <message>
-   <source>Regions, doors, planes</source>
-   <translation>Regionen, Türen, Ebenen</translation>
-  </message>
-  <message>
    <source>Regions: connected unions of chosen rectangles.</source>
    <translation>Regionen: zusammenhängende Vereinigungen gewählter Rechtecke.</translation>
   </message>
@@ -2213,6 +2209,10 @@
   <message>
    <source>Show lengths and areas in feet and inches.</source>
    <translation>Längen und Flächen in Fuß und Zoll zeigen.</translation>
+  </message>
+  <message>
+   <source>Show only rows with all of these words (Ctrl+F)</source>
+   <translation>Nur Zeilen mit allen diesen Wörtern zeigen (Strg+F)</translation>
   </message>
   <message>
    <source>Show or hide</source>

@@ -70,7 +70,7 @@ def test_groups_and_submenus_name_actions_that_exist(window: MainWindow) -> None
 
 def test_a_larger_window_gives_its_room_to_the_panes(window: MainWindow, qtbot: QtBot) -> None:
     qtbot.wait(300)  # until Qt has laid out the docks
-    tables, side = window.docks["items"], window.docks["layers"].width()
+    tables, side = window.docks["region_list"], window.docks["layers"].width()
     share = tables.height() / window.height()
     window.resize(1900, 1300)
     qtbot.waitUntil(lambda: abs(tables.height() / window.height() - share) < 0.08)
