@@ -41,12 +41,14 @@ def writers() -> dict[str, Write]:
     import test_las
     import test_mesh
     import test_octomap
+    import test_reader_ptx
     import test_rosbag
 
     from tests.readers.reader_clouds import path_in_room, room, write_pcd, write_ply, write_tum, xyz_columns
 
     cloud = room(np.random.default_rng(1), density=8)
     columns = xyz_columns(cloud)
+    halves = list(enumerate(np.array_split(cloud, 2)))
     leaves = test_octomap.random_leaves(np.random.default_rng(2))
     made: dict[str, Write] = {
         f"ply-{form}": lambda d, form=form: write_ply(d / "a.ply", form, columns)
@@ -74,6 +76,9 @@ def writers() -> dict[str, Write]:
         "carmen": lambda d: test_carmen.write_log(d / "a.log", beams=91),
         "carmen-gz": lambda d: test_carmen.write_log(d / "a.log.gz", beams=91),
         "xyz": lambda d: _text(d / "a.xyz", cloud),
+        "ptx": lambda d: test_reader_ptx.write(
+            d / "a.ptx", *(test_reader_ptx.scan_text(p, test_reader_ptx.station(k)) for k, p in halves)
+        ),
         "npy": lambda d: _saved(d / "a.npy", lambda p: np.save(p, cloud)),
         "npz": lambda d: _saved(d / "a.npz", lambda p: np.savez_compressed(p, points=cloud)),
         "tum": lambda d: write_tum(d / "a.tum", path_in_room()),

@@ -30,10 +30,11 @@ def builtin_readers() -> tuple[Reader, ...]:
     from floorplan_core.readers.npz import NpzReader
     from floorplan_core.readers.pcd import PcdReader
     from floorplan_core.readers.ply import PlyReader
+    from floorplan_core.readers.ptx import PtxReader
     from floorplan_core.readers.scans import ScanFolderReader
     from floorplan_core.readers.text import TextReader
 
-    return (PlyReader(), PcdReader(), NpzReader(), ScanFolderReader(), TextReader())
+    return (PlyReader(), PcdReader(), NpzReader(), ScanFolderReader(), PtxReader(), TextReader())
 
 
 def open_survey(

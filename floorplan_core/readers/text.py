@@ -47,7 +47,7 @@ class TextReader:
 
     name = "XYZ"
     suffixes: tuple[str, ...] = (".xyz", ".pts", ".txt", ".csv", ".asc", ".xyzrgb", ".xyzn")
-    description = "Text, one point a line: XYZ, PTS, PTX, TXT, CSV"
+    description = "Text, one point a line: XYZ, PTS, TXT, CSV"
 
     def sniff(self, path: Path, head: bytes) -> float:
         """0.6 with one of our suffixes, else 0.3, where the first lines are rows of three numbers or more."""
