@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from floorcast_app.warm_up import WarmUp
 
 if TYPE_CHECKING:
-    from floorcast_app.jobs import Jobs
+    from floorcast_app.main_window import MainWindow
 
 SWITCH = 0.0005  # s after which a thread that computes is asked to let the window have the interpreter
 SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
@@ -30,18 +30,17 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
         from floorplan_core.errors import UsageError
 
         raise UsageError("There is no display to open a window on; 'floorcast gui --script FILE' needs none.")
-    from floorcast_app.main_window import MainWindow
+    from PySide6.QtCore import QTimer
 
     app = make_application()
     window = make_window(unattended=script is not None)
-    assert isinstance(window, MainWindow)
-    warming = WarmUp()
-    warming.start()
+    warming = WarmUp(window.workbench.planner)
     if script is not None:
         from floorcast_app.script import run_script
 
         window.resize(*SCRIPT_SIZE)
         window.show()
+        warming.start()
         try:
             if survey is not None:
                 from floorcast_app.script import ScriptedApplication
@@ -50,20 +49,22 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
             run_script(script, window)
         finally:
             window.close()
-            _let_end(warming, window.workbench.jobs)
+            _let_end(warming, window)
         return 0
     window.show()
+    QTimer.singleShot(0, warming.start)  # the window is painted first
     if survey is not None:
         window.workbench.try_run("file.open", path=survey)
     status = int(app.exec())
-    _let_end(warming, window.workbench.jobs)
+    _let_end(warming, window)
     return status
 
 
-def _let_end(warming: WarmUp, jobs: Jobs) -> None:
+def _let_end(warming: WarmUp, window: MainWindow) -> None:
     """Threads of ours end before the interpreter does: one that is torn off aborts the program."""
     warming.stop()
-    jobs.wait(LAST_WAIT)
+    window.workbench.planner.close()
+    window.workbench.jobs.wait(LAST_WAIT)
 
 
 def make_application():  # type: ignore[no-untyped-def]
@@ -93,14 +94,15 @@ def _log(kind: object, context: object, text: str) -> None:
     logging.getLogger("floorcast.qt").debug("%s", text)
 
 
-def make_window(unattended: bool = False):  # type: ignore[no-untyped-def]
+def make_window(unattended: bool = False) -> MainWindow:
     """The main window with an empty document; an unattended one neither asks nor remembers anything."""
     from floorcast_app.main_window import MainWindow
     from floorcast_app.qt_post import QtPost
     from floorcast_app.workbench import Workbench
+    from floorcast_app.workers.remote_planner import RemotePlanner
 
     post = QtPost()
-    workbench = Workbench(post)
+    workbench = Workbench(post, RemotePlanner())
     window = MainWindow(workbench, _settings(unattended), unattended)
     post.setParent(window)
     return window

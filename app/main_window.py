@@ -159,6 +159,7 @@ class MainWindow(QMainWindow):
             return
         self._remember()
         self.workbench.jobs.cancel()
+        self.workbench.planner.close()
         self.workbench.jobs.wait(LAST_WAIT)
         if self.recovery is not None:
             self.recovery.end()

@@ -25,36 +25,57 @@ class Points:
     intensity: NDArray[np.float32] | None = None  # (N,) in the file's own scale
 
 
-class PointStore:
-    """Keeps every k-th point, with k doubled whenever the store is full."""
+class Share:
+    """Takes every k-th point of a survey, with k doubled whenever more than ``most`` would be kept."""
 
     def __init__(self, most: int = MOST_POINTS) -> None:
+        self.every = 1
         self._most = most
-        self._lock = threading.Lock()
-        self._chunks: list[Points] = []
-        self._kept = 0
-        self._every = 1
-        self._skip = 0
+        self._kept = self._skip = 0
 
-    def __len__(self) -> int:
-        return self._kept
-
-    def add(self, chunk: PointChunk) -> None:
-        """Take a share of the chunk's points."""
-        rows = slice(self._skip, None, self._every)
+    def take(self, chunk: PointChunk) -> Points:
+        """The share of the next chunk; after it, what was taken before is to be thinned to :attr:`every`."""
         count = len(chunk.points)
-        self._skip = (self._skip - count) % self._every
+        while self._kept + -(-count // self.every) > self._most:
+            self.every *= 2
+            self._kept = -(-self._kept // 2)
+        rows = slice(self._skip % self.every, None, self.every)
+        self._skip = (rows.start - count) % self.every
         colour, intensity = getattr(chunk, "rgb", None), getattr(chunk, "intensity", None)
         part = Points(
             np.asarray(chunk.points[rows], dtype=np.float32),
             None if colour is None else np.asarray(colour[rows]),
             None if intensity is None else np.asarray(intensity[rows], dtype=np.float32),
         )
+        self._kept += len(part.xyz)
+        return part
+
+
+class PointStore:
+    """Keeps the share of a survey's points that the panes show."""
+
+    def __init__(self, most: int = MOST_POINTS) -> None:
+        self._share = Share(most)
+        self._lock = threading.Lock()
+        self._chunks: list[Points] = []
+        self._kept = 0
+        self._every = 1
+
+    def __len__(self) -> int:
+        return self._kept
+
+    def add(self, chunk: PointChunk) -> None:
+        """Take a share of the chunk's points."""
+        part = self._share.take(chunk)
+        self.put(part, self._share.every)
+
+    def put(self, part: Points, every: int) -> None:
+        """Keep points that are every ``every``-th of their part of the survey, and of the others no more."""
         with self._lock:
+            while self._every < every:
+                self._thin()
             self._chunks.append(part)
             self._kept += len(part.xyz)
-            while self._kept > self._most:
-                self._thin()
 
     def snapshot(self) -> Points:
         """All points kept so far, shuffled by a fixed rule (the same survey gives the same order)."""

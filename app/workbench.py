@@ -19,27 +19,28 @@ from floorcast_app.interface import Interface, NoInterface
 from floorcast_app.item_bounds import bring_into_view
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
-from floorcast_app.run_replay import ShownStorey, Snapshot, snapshots
+from floorcast_app.run_replay import ShownStorey, Snapshot
 from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
 from floorcast_app.state import Check, DocumentState, StoreyEdits, SurveyRef
 from floorcast_app.tools.box import ToolBox
 from floorcast_app.view_state import ViewState
+from floorcast_app.workers.planner import LocalPlanner, Planner, Session
 from floorplan_core.errors import FloorPlanError, UsageError
 from floorplan_core.model import FloorPlan
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
-from floorplan_core.session import PlanningSession
 
-_Planned = tuple[PlanningSession, FloorPlan, tuple[Storey, ...]]
+_Planned = tuple[Session, FloorPlan, tuple[Storey, ...]]
 
 
 class Workbench:
     """One document and everything that is derived from it."""
 
-    def __init__(self, post: Post) -> None:
+    def __init__(self, post: Post, planner: Planner | None = None) -> None:
         self.post = post  # runs a function in the main thread, soon
+        self.planner: Planner = planner or LocalPlanner()  # reads and plans, for jobs
         self._whole: FloorPlan | None = None  # the plan of the whole survey, while a moment of a run is shown
         self.document = Document()
         self.selection = Selection()
@@ -54,7 +55,7 @@ class Workbench:
         self.names: tuple[tuple[str, str, str], ...] = ()  # of the regions, as they were saved
         self.plan: FloorPlan | None = None
         self.storeys: tuple[Storey, ...] = ()  # of the survey, lowest first; nearly always one
-        self.session: PlanningSession | None = None
+        self.session: Session | None = None
         self.points = PointStore()
         self.warnings: tuple[str, ...] = ()
         self.assumptions: tuple[str, ...] = ()
@@ -142,9 +143,8 @@ class Workbench:
         names = self.session.names if self.session is not None else self.names
 
         def work(observer: Observer) -> _Planned:
-            session = PlanningSession.open(ref.path, ref.trajectory, state.config, observer)
-            session.begin_with_names(names)
-            session.read(observer, lambda chunk: store.add(chunk))
+            session = self.planner.open(ref.path, ref.trajectory, state.config, names, observer)
+            self.planner.read(session, store, observer)
             return self._plan(session, state, observer)
 
         self.jobs.start(f"Reading {ref.path.name}", work, self._planned)
@@ -177,8 +177,9 @@ class Workbench:
                 self.timeline_changed.emit()
 
         def work(observer: Observer) -> None:
-            for snapshot in snapshots(session.reconstruction, state.config, every, observer, shown):
-                self.post(lambda s=snapshot: add(s))
+            self.planner.replay(
+                session, state.config, every, shown, observer, lambda s: self.post(lambda: add(s))
+            )
 
         self.jobs.start("Replaying the run", work, lambda _: None)
 
@@ -345,7 +346,7 @@ class Workbench:
             self.replan()
         self.selection.keep_only(self.exists)
 
-    def _plan(self, session: PlanningSession, state: DocumentState, observer: Observer) -> _Planned:
+    def _plan(self, session: Session, state: DocumentState, observer: Observer) -> _Planned:
         """The plan of the storey that is shown; in a job's thread."""
         plan = session.plan(state.config, state.corrections, observer, state.storey, self.origin)
         return session, plan, session.storeys(state.config)

@@ -75,7 +75,7 @@ def main() -> int:
     window.show()
     app.processEvents()
     _say("first window, s", time.perf_counter() - began)
-    warming = WarmUp()
+    warming = WarmUp(window.workbench.planner)
     warming.start()
     script, watch = ScriptedApplication(window), StandStill(LEAST, who)
     spin(3)  # as long as somebody takes to choose a file

@@ -29,6 +29,11 @@ Keep = Callable[[PointChunk], None]
 Names = tuple[tuple[str, str, str], ...]  # id, name and outline (WKB, hexadecimal) of regions
 
 
+def reads_alike(one: Config, other: Config) -> bool:
+    """True where points are read and integrated the same with both settings."""
+    return (one.input, one.drift, one.voxels) == (other.input, other.drift, other.voxels)
+
+
 class PlanningSession:
     """One opened survey (or occupancy grid map) with everything that replanning needs."""
 
@@ -79,8 +84,7 @@ class PlanningSession:
         """True where ``config`` changes how points are read or integrated: open the survey anew."""
         if self._grid_map is not None:
             return False
-        read = self._read_with
-        return (config.input, config.drift, config.voxels) != (read.input, read.drift, read.voxels)
+        return not reads_alike(config, self._read_with)
 
     def read(self, observer: Observer, keep: Keep | None = None) -> None:
         """Integrate all points; ``keep`` sees every chunk. Cancelled half way, it begins anew next time."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from floorcast_app.point_store import PointStore
 from floorcast_app.rendering.cloud import Cloud, Paint, lowest_level, make_cloud, paint, scene_matrix
+from floorcast_app.workers.behind import step_behind
 from floorplan_core.model import FloorPlan
 
 Float = NDArray[np.float64]
@@ -100,6 +101,7 @@ class CloudLoader:
             self._wake.notify()
 
     def _run(self) -> None:
+        step_behind()
         while True:
             with self._wake:
                 self._busy = False

@@ -17,6 +17,7 @@ from floorcast_app.rendering.renderer import Frame, FrameRequest, Renderer
 from floorcast_app.rendering.scene import Scene, build_scene
 from floorcast_app.selection import Item
 from floorcast_app.view_state import Look
+from floorcast_app.workers.behind import step_behind
 from floorplan_core.model import FloorPlan
 
 TARGET = 0.030  # s for a frame while something moves: 30 a second with what the window itself needs
@@ -118,6 +119,7 @@ class FrameWorker:
         return not self._thread.is_alive()
 
     def _run(self) -> None:
+        step_behind()
         while (subject := self._next()) is not None:
             try:
                 self._quick(subject)

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
 
 from floorcast_app.layers.source import PlanSource, source_of
 from floorcast_app.viewports.plan_layers import LayerView, make_views
+from floorcast_app.workers.behind import step_behind
 from floorplan_core.model import FloorPlan
 
 _one_at_a_time = Lock()  # the panes share what they draw from
@@ -75,6 +76,7 @@ class _Task(QRunnable):
         self._builder, self._serial, self._plan, self._kinds = builder, serial, plan, kinds
 
     def run(self) -> None:
+        step_behind()
         try:
             made: object = Drawing(self._plan, self._kinds)
         except Exception as error:  # noqa: BLE001 (a bug in a drawing must not leave the pane waiting)

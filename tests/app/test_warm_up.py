@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 
 from floorcast_app.warm_up import WarmUp
+from floorcast_app.workers.planner import LocalPlanner
+from floorcast_app.workers.remote_planner import RemotePlanner
 
 OPENS_AFTERWARDS = """
 import sys
 from floorcast_app import theme
-from floorcast_app.warm_up import WarmUp
-from floorplan_core.session import PlanningSession
-
-warming = WarmUp()
-warming.start()
-warming._thread.join()
-loaded = set(sys.modules)
+from floorcast_app.workers.planning_process import warm_up
 from floorplan_core.config import Config
 from floorplan_core.observer import Observer
+from floorplan_core.session import PlanningSession
 
+warm_up(Observer())
+loaded = set(sys.modules)
 sample, observer = theme.resource("sample_survey"), Observer()
 session = PlanningSession.open(sample / "points.ply", None, Config(), observer)
 session.read(observer)
@@ -41,8 +41,28 @@ def test_a_survey_that_is_opened_afterwards_needs_no_module_more() -> None:
     assert ran.stdout.strip() == "[]"
 
 
-def test_it_can_be_stopped_at_once() -> None:
-    warming = WarmUp()
+def test_the_process_that_plans_is_started() -> None:
+    planner = RemotePlanner()
+    warming = WarmUp(planner)
     warming.start()
+    warming._thread.join()
+    try:
+        assert planner._life is not None and planner._life.process.is_alive()
+    finally:
+        planner.close()
+    assert "scipy.spatial" in sys.modules
+
+
+def test_stopped_before_it_begins_it_starts_nothing() -> None:
+    class Watched(LocalPlanner):
+        started = threading.Event()
+
+        def start(self) -> None:
+            self.started.set()
+
+    planner = Watched()
+    warming = WarmUp(planner)
     warming.stop()
-    assert not warming._thread.is_alive()
+    warming.start()
+    warming._thread.join(60)
+    assert not warming._thread.is_alive() and not planner.started.is_set()
