@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from itertools import pairwise
 
@@ -107,6 +108,23 @@ class Proportions(QObject):
     def window_resized(self) -> None:
         """To be told of the window's new size."""
         if self._sizes and self._window.size() != self._whole:
+            self._follows.start()
+
+    def kept(self) -> str:
+        """The sizes as text, to be given to :meth:`recall` with the arrangement that they belong to."""
+        sizes = {id: [size.width(), size.height()] for id, size in self._sizes.items()}
+        return json.dumps({"window": [self._whole.width(), self._whole.height()], "docks": sizes})
+
+    def recall(self, kept: str) -> None:
+        """Give an arrangement that was kept in a window of another size its proportions back."""
+        try:
+            read = json.loads(kept)
+            whole = QSize(*map(int, read["window"]))
+            sizes = {id: QSize(*map(int, size)) for id, size in read["docks"].items() if id in self._docks}
+        except (ValueError, TypeError, KeyError, AttributeError):
+            return  # somebody else wrote the settings
+        if sizes and whole != self._window.size():
+            self._sizes, self._whole = sizes, whole
             self._follows.start()
 
     def _remember(self) -> None:

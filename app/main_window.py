@@ -52,7 +52,7 @@ MENU_GROUPS = (  # actions that begin a group of their menu
     "help.about",
 )  # fmt: skip
 SUBMENUS = {"view.layer_": "Layers", "view.colour_": "Points by colour"}  # ids that begin so, and their menu
-DOCKS = 1  # version of the arrangement: one that was kept of other docks is not taken
+DOCKS = 2  # version of the arrangement: one that was kept of other docks or bars is not taken
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
@@ -83,6 +83,9 @@ class MainWindow(QMainWindow):
         self.banner = None if unattended else AssumptionsBanner(workbench, self)
         self.empty = EmptyState(workbench, self.recent, self)
         self.recovery = None if unattended else RecoveryBanner(workbench, self)
+        for banner in (self.banner, self.recovery):
+            if banner is not None:
+                banner.moved.connect(lambda: self.empty.cover(self))
         workbench.ui = QtInterface(self)
         workbench.thumbnail = lambda: plan_png(self)
         workbench.view.changed.connect(self._look_changed)
@@ -221,17 +224,26 @@ class MainWindow(QMainWindow):
         if before.theme != after.theme:
             self.dresser.change(after.theme)
         if before.workspace != after.workspace:
-            self._settings.setValue(f"workspace/{before.workspace}", self.saveState(DOCKS))
+            self._keep_arrangement(before.workspace)
             self._arrange(after.workspace)
 
     def _arrange(self, workspace: str) -> None:
         kept = self._settings.value(f"workspace/{workspace}")
         before = [bar for bar in tab_bars(self) if bar.count()]
-        if not (isinstance(kept, QByteArray) and self.restoreState(kept, DOCKS)):
+        restored = isinstance(kept, QByteArray) and self.restoreState(kept, DOCKS)
+        for banner in (self.banner, self.recovery):
+            if banner is not None:
+                banner.put_right()
+        if not restored:
             arrange(self, self.docks, workspace)
             return
+        self._proportions.recall(str(self._settings.value(f"workspace/{workspace}-sizes", "")))
         for bar in before:  # Qt makes new ones and forgets to take these away
             bar.hide()
+
+    def _keep_arrangement(self, workspace: str) -> None:
+        self._settings.setValue(f"workspace/{workspace}", self.saveState(DOCKS))
+        self._settings.setValue(f"workspace/{workspace}-sizes", self._proportions.kept())
 
     def _retitle(self) -> None:
         survey, project = self.workbench.state.survey, self.workbench.project
@@ -335,7 +347,7 @@ class MainWindow(QMainWindow):
     def _remember(self) -> None:
         look = self.workbench.view.look
         self._settings.setValue("window/geometry", self.saveGeometry())
-        self._settings.setValue(f"workspace/{look.workspace}", self.saveState(DOCKS))
+        self._keep_arrangement(look.workspace)
         self._settings.setValue("look/theme", look.theme)
         self._settings.setValue("look/units", look.units)
 

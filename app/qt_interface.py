@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -9,11 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QMessageBox
 
+from floorcast_app import icons, theme
+from floorcast_app.panels.base import GRID
 from floorcast_app.translation import tr
 from floorplan_core.errors import UsageError
 
 if TYPE_CHECKING:
     from floorcast_app.main_window import MainWindow
+
+
+BOX_WIDTH = 400  # px of a box that asks for a word
 
 
 class QtInterface:
@@ -37,17 +43,27 @@ class QtInterface:
 
     def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
         patterns = export_filters() if filters == "export" else filters
-        chosen, _ = QFileDialog.getSaveFileName(self._window, tr(title), suggested, patterns)
-        return Path(chosen) if chosen else None
+        chosen, used = QFileDialog.getSaveFileName(
+            self._window, tr(title), suggested, patterns, _filter_of(suggested, patterns)
+        )
+        return _with_suffix(Path(chosen), used) if chosen else None
 
     def ask_text(self, title: str, label: str, text: str) -> str | None:
-        answer, good = QInputDialog.getText(self._window, tr(title), tr(label), text=text)
-        return answer if good else None
+        box = QInputDialog(self._window)
+        box.setWindowTitle(tr(title))
+        box.setLabelText(tr(label))
+        box.setTextValue(text)
+        box.resize(BOX_WIDTH, box.sizeHint().height())
+        layout = box.layout()
+        if layout is not None:
+            layout.setContentsMargins(3 * GRID, 2 * GRID, 3 * GRID, 2 * GRID)
+        return box.textValue() if box.exec() else None
 
     def ask_yes(self, text: str, detail: str) -> bool:
         if self._window.unattended:
             return True
         box = QMessageBox(self._window)
+        box.setIconPixmap(icons.pixmap("triangle-alert", 32, theme.colours().warning))
         box.setText(tr(text))
         box.setInformativeText(tr(detail))
         box.setStandardButtons(QMessageBox.StandardButton.Discard | QMessageBox.StandardButton.Cancel)
@@ -85,3 +101,19 @@ def export_filters() -> str:
     return ";;".join(
         f"{e.name} ({' '.join(f'*{s}' for s in e.suffixes)})" for e in default_registry().exporters
     )
+
+
+def _filter_of(name: str, patterns: str) -> str:
+    """The pattern that a file of this name belongs to: the dialog begins with it."""
+    suffix = Path(name).suffix
+    return next((p for p in patterns.split(";;") if suffix and suffix in _suffixes(p)), "")
+
+
+def _with_suffix(path: Path, pattern: str) -> Path:
+    """A name that was typed without a suffix gets that of the pattern that was chosen."""
+    suffixes = _suffixes(pattern)
+    return path if path.suffix or not suffixes else path.with_name(f"{path.name}{suffixes[0]}")
+
+
+def _suffixes(pattern: str) -> list[str]:
+    return re.findall(r"\*(\.[\w.]+)", pattern)

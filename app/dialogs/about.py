@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 PAPER = "Predictive and Semantic Layout Estimation for Robotic Applications in Manhattan Worlds"
 
+SIZES = [440, 580]  # px of the list and of the text, in which most licences keep their lines
+WIDTHS = (168, 108)  # px of the columns
+
 
 class About(Dialog):
     """The list of licences fills the dialog; the one chosen can be read."""
@@ -53,11 +56,12 @@ class About(Dialog):
         self.list = self._list()
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
+        self.text.setProperty("role", "small")
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.list)
         split.addWidget(self.text)
-        split.setSizes([440, 340])
-        split.setMinimumSize(QSize(800, 340))
+        split.setSizes(SIZES)
+        split.setMinimumSize(QSize(sum(SIZES), 380))
         self.body.addWidget(split, 1)
         self.add_close(tr("Close"))
         self.list.setCurrentItem(self.list.topLevelItem(0))
@@ -69,8 +73,8 @@ class About(Dialog):
         made.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         made.setHeaderLabels([tr("Package"), tr("Version"), tr("Licence")])
         made.addTopLevelItems([QTreeWidgetItem([w.name, w.version, w.licence]) for w in self.works])
-        made.setColumnWidth(0, 190)
-        made.setColumnWidth(1, 90)
+        for at, width in enumerate(WIDTHS):
+            made.setColumnWidth(at, width)
         made.currentItemChanged.connect(lambda item, _: self._show(made.indexOfTopLevelItem(item)))
         return made
 

@@ -38,6 +38,8 @@ class Dialog(QDialog):
     def open_over(self, parent: QWidget) -> None:
         """Show it in the middle of ``parent``, which stays usable."""
         self.adjustSize()
+        if self.body.hasHeightForWidth():  # words that break need more than Qt asks for
+            self.resize(self.width(), max(self.height(), self.body.totalHeightForWidth(self.width())))
         middle = parent.frameGeometry().center()
         self.move(middle.x() - self.width() // 2, max(0, middle.y() - self.height() // 2))
         self.show()

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 COLUMNS = 3
 LONGEST_KEYS = 18  # characters of a shortcut that stands beside what it does
+KEYS_WIDTH = 128  # px
 GESTURES = (
     ("Click", "Select; with Ctrl add to the selection"),
     ("Double click", "Bring it into view"),
@@ -54,7 +55,7 @@ class ShortcutsSheet(Dialog):
         self.body.addWidget(label(tr("Shortcuts and gestures"), "heading"))
         self.body.addWidget(scrolling(inner), 1)
         self.add_close(tr("Close"))
-        self.resize(980, 660)
+        self.resize(1040, 660)
 
     def open_over(self, parent: QWidget) -> None:
         size = self.size()
@@ -96,6 +97,8 @@ def _group(title: str, rows: list[tuple[str, str]]) -> QWidget:
         grid.addLayout(_keys(keys), 2 * i if long else i, 0, Qt.AlignmentFlag.AlignTop)
         grid.addWidget(label(what, "small" if long else "", wrap=True), *below, Qt.AlignmentFlag.AlignTop)
     grid.setColumnStretch(0 if long else 1, 1)
+    if not long:
+        grid.setColumnMinimumWidth(0, KEYS_WIDTH)  # groups above each other line up
     layout.addLayout(grid)
     return holder
 

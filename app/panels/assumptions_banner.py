@@ -20,7 +20,7 @@ class AssumptionsBanner(Banner):
     """Shown once for each survey whose unit or axis was guessed, when its plan is there."""
 
     def __init__(self, workbench: Workbench, window: QMainWindow) -> None:
-        super().__init__(window)
+        super().__init__(window, "assumptions")
         self._workbench = workbench
         self._shown_for: object = None
         for event, then in (
@@ -45,8 +45,8 @@ class AssumptionsBanner(Banner):
         if plan is None or not guesses or self._shown_for == survey:
             return
         self._shown_for = survey
-        self.unit = self._choice("input.unit", UNITS, tr("unit as guessed"))
-        self.up = self._choice("input.up", AXES, tr("up axis as guessed"))
+        self.unit = self._choice("input.unit", UNITS, tr("Unit as guessed"))
+        self.up = self._choice("input.up", AXES, tr("Up axis as guessed"))
         self.ask("info", " ".join(guesses), self.unit, self.up, answer(tr("Looks right"), self.hide))
 
     def _choice(self, setting: str, words: tuple[str, ...], first: str) -> QComboBox:

@@ -1,23 +1,44 @@
-"""A line at the top of the window that asks something without stopping anybody."""
+"""A line at the top of the window that asks something without stopping anybody or covering anything."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMainWindow, QPushButton, QToolButton, QWidget
+from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QMainWindow,
+    QPushButton,
+    QSizePolicy,
+    QToolBar,
+    QToolButton,
+    QWidget,
+)
 
-from floorcast_app import icons
+from floorcast_app import icons, theme
 from floorcast_app.panels.base import GRID, clear, row
 from floorcast_app.translation import tr
 
+MARK = 20  # px
 
-class Banner(QFrame):
-    """Lies over the panes, just below the toolbar of its window."""
 
-    def __init__(self, window: QMainWindow) -> None:
+class Banner(QToolBar):
+    """Stands below the toolbar of its window; the panes make room for it."""
+
+    moved = Signal()  # it came, went, or has another height
+
+    def __init__(self, window: QMainWindow, name: str) -> None:
+        """``name``: by which the window remembers its bars."""
         super().__init__(window)
+        self.setObjectName(name)
         self.setProperty("role", "banner")
+        self.setMovable(False)
+        self.toggleViewAction().setVisible(False)
+        self._icon = ""
+        self._wanted = False
         self.mark, self.text = QLabel(), QLabel()
         self.text.setWordWrap(True)
         self._answers = QHBoxLayout()
@@ -26,39 +47,76 @@ class Banner(QFrame):
         icons.set_icon(self.close_button, "x", "muted")
         self.close_button.setToolTip(tr("Dismiss"))
         self.close_button.clicked.connect(self.hide)
+        self._line = self._make_line()
+        self.addWidget(self._line)
+        layout = self.layout()
+        assert layout is not None
+        layout.setContentsMargins(0, 0, 0, 0)
+        window.addToolBarBreak()
+        window.addToolBar(self)
+        self.hide()
+
+    def ask(self, icon: str, text: str, *answers: QWidget) -> None:
+        """Show ``text`` with widgets that answer it at its right."""
+        self._icon = icon
+        self._tint()
+        self.text.setText(text)
+        clear(self._answers)
+        for answer in answers:
+            self._answers.addWidget(answer)
+        self._wanted = True
+        self.show()
+        self._fold()
+
+    def hide(self) -> None:
+        """Take it away, for good."""
+        self._wanted = False
+        super().hide()
+
+    def put_right(self) -> None:
+        """Be there or not as asked, whatever an arrangement that was kept says."""
+        self.setVisible(self._wanted)
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.StyleChange and self._icon:
+            self._tint()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fold()
+        self.moved.emit()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        QTimer.singleShot(0, self, self.moved.emit)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        super().hideEvent(event)
+        QTimer.singleShot(0, self, self.moved.emit)
+
+    def _make_line(self) -> QFrame:
+        made = QFrame()
         line = row(self.mark, self.text, gap=GRID + 4)
         line.setStretch(1, 1)
         line.addLayout(self._answers)
         line.addWidget(self.close_button)
         line.setContentsMargins(2 * GRID, 6, GRID, 6)
-        self.setLayout(line)
-        window.installEventFilter(self)
-        self.hide()
+        made.setLayout(line)
+        made.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        return made
 
-    def ask(self, icon: str, text: str, *answers: QWidget) -> None:
-        """Show ``text`` with widgets that answer it at its right."""
-        self.mark.setPixmap(icons.pixmap(icon, 20))
-        self.text.setText(text)
-        clear(self._answers)
-        for answer in answers:
-            self._answers.addWidget(answer)
-        self.show()
-        self.place()
-        self.raise_()
+    def _fold(self) -> None:
+        """As tall as the words need at the present width: tool bars cannot ask for that themselves."""
+        parent, layout = self.parentWidget(), self._line.layout()
+        assert parent is not None and layout is not None
+        height = layout.heightForWidth(parent.width()) + 1
+        if self.minimumHeight() != height:
+            self._line.setFixedHeight(height)
+            self.setFixedHeight(height)
 
-    def place(self) -> None:
-        """Below the toolbar, as wide as the window."""
-        window = self.parentWidget()
-        assert isinstance(window, QMainWindow)
-        bars = [b for b in window.findChildren(QWidget) if b.inherits("QToolBar") and b.parent() is window]
-        top = max((b.geometry().bottom() + 1 for b in bars if b.isVisible()), default=0)
-        width = window.width()
-        self.setGeometry(0, top, width, max(self.sizeHint().height(), self.heightForWidth(width)))
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.Resize and self.isVisible():
-            self.place()
-        return super().eventFilter(watched, event)
+    def _tint(self) -> None:
+        self.mark.setPixmap(icons.pixmap(self._icon, MARK, theme.colours().accent))
 
 
 def answer(text: str, do: Callable[[], object], primary: bool = False) -> QPushButton:

@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+import re
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtWidgets import (
+    QApplication,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from floorcast_app import icons, theme
 from floorcast_app.panels.base import GRID, Panel, clear, column, label, scrolling
@@ -21,9 +32,9 @@ class PropertiesPanel(Panel):
     def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
         super().__init__(workbench, parent)
         self.shown: Portrait | None = None
-        inner = QWidget()
-        self._layout = column(inner, 2 * GRID, GRID)
-        column(self, 0, 0).addWidget(scrolling(inner))
+        self._inner = QWidget()
+        self._layout = column(self._inner, 2 * GRID, GRID)
+        column(self, 0, 0).addWidget(scrolling(self._inner))
         self.listen(workbench.selection.changed, workbench.plan_changed, workbench.view.changed)
         self.listen(workbench.document.saved_changed, theme.changed)
         self._last: object = ()
@@ -45,8 +56,19 @@ class PropertiesPanel(Panel):
             self._show(self.shown, len(items))
             self._add_actions([a.id for a in actions])
         self._layout.addStretch(1)
+        self._lay_out()
 
     # ---- parts ------------------------------------------------------------------------------------------
+
+    def _lay_out(self) -> None:
+        """At once: Qt would show the lines squeezed into the room of those before them, for a moment."""
+        if not self.isVisible():
+            return
+        for child in self._inner.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly):
+            if not child.testAttribute(Qt.WidgetAttribute.WA_WState_ExplicitShowHide):
+                child.show()  # the others are those before, on their way out
+        self._layout.activate()
+        QApplication.sendEvent(self._inner, QEvent(QEvent.Type.LayoutRequest))
 
     def _show(self, shown: Portrait, selected: int) -> None:
         self._layout.addWidget(label(shown.title, "heading", wrap=True))
@@ -95,8 +117,8 @@ class PropertiesPanel(Panel):
 
     def _value(self, fact: Fact) -> QWidget:
         if fact.item is None and not fact.setting:
-            return _right(QLabel(fact.value))
-        link = Link(fact.value)
+            return _right(QLabel(_unbroken(fact.value)))
+        link = Link(_unbroken(fact.value))
         if fact.item is not None:
             item = fact.item
             link.clicked.connect(lambda: self.workbench.selection.select(item))
@@ -156,6 +178,11 @@ def _right(made: QLabel) -> QLabel:
     if not isinstance(made, Link):
         made.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return made
+
+
+def _unbroken(text: str) -> str:
+    """A number and its unit stay on one line."""
+    return re.sub(r"(?<=\d) (?=[^\W\d]|%)", "\N{NO-BREAK SPACE}", text)
 
 
 def _setting_tip(fact: Fact) -> str:

@@ -18,7 +18,7 @@ class RecoveryBanner(Banner):
     """One line for the newest document that was left behind; the others are offered after it."""
 
     def __init__(self, workbench: Workbench, window: QMainWindow) -> None:
-        super().__init__(window)
+        super().__init__(window, "recovery")
         self._workbench = workbench
         self._recovery = Recovery(workbench)
         self._ticking = QTimer(self, interval=round(EVERY * 1000))

@@ -10,10 +10,11 @@ from PySide6.QtGui import QBrush, QColor, QMouseEvent, QPainter, QPaintEvent, QP
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app import theme
-from floorcast_app.format import area, number
+from floorcast_app.format import SQUARE_FEET_PER_M2, number
 from floorcast_app.translation import tr
 
 ROOMY = 80  # px: a lower one shows its shape only
+GROUND = 0.88  # opacity of what lies under a label
 MARGIN = 8.0  # px left and right, as much as half a slider's handle
 
 
@@ -81,30 +82,28 @@ class Sparkline(QWidget):
         """Round areas as fine lines, with their numbers; what the two fills mean."""
         holds = theme.colours()
         painter.setFont(theme.font(11))
-        step = _round(top / 3)
-        for k in range(1, int(top / step) + 1):
-            y = self._y(k * step, top)
+        unit = 1.0 if self.units == "m" else 1 / SQUARE_FEET_PER_M2  # m2
+        step = _round(top / unit / 3)
+        for k in range(1, int(top / unit / step) + 1):
+            y = self._y(k * step * unit, top)
             painter.setPen(QPen(QColor(holds.line_strong), 1, Qt.PenStyle.DotLine))
             painter.drawLine(QPointF(MARGIN, y), QPointF(self.width() - MARGIN, y))
-            painter.setPen(QColor(holds.muted))
-            painter.drawText(QPointF(MARGIN + 4, y + 13), self._area_text(k * step))
+            _label(painter, f"{number(k * step, ',.0f')} {'m²' if self.units == 'm' else 'sq ft'}", y)
         x = self.width() - 2 * MARGIN
         for text, brush in (
             (tr("predicted"), QBrush(QColor(holds.predicted), Qt.BrushStyle.BDiagPattern)),
-            (tr("seen"), QBrush(QColor(holds.accent_soft))),
+            (tr("seen"), None),
         ):
             wide = painter.fontMetrics().horizontalAdvance(text)
             x -= wide
             painter.setPen(QColor(holds.muted))
             painter.drawText(QPointF(x, self.height() - 12), text)
             x -= 22
-            painter.setPen(QPen(QColor(holds.line_strong), 1))
-            painter.setBrush(brush)
-            painter.drawRect(QRectF(x, self.height() - 21, 16, 10))
+            swatch = QRectF(x, self.height() - 21, 16, 10)
+            painter.setPen(QPen(QColor(holds.muted if brush else holds.accent), 1))
+            painter.setBrush(brush or QBrush(QColor(holds.accent_soft)))
+            painter.drawRect(swatch)
             x -= 16
-
-    def _area_text(self, m2: float) -> str:
-        return area(m2, self.units) if self.units != "m" else f"{number(m2, ',.0f')} m²"
 
     def _area(
         self, painter: QPainter, upper: Sequence[float], lower: Sequence[float], top: float, brush: QBrush
@@ -124,6 +123,20 @@ class Sparkline(QWidget):
         if self.values:
             x = event.position().x()
             self.picked.emit(min(range(len(self.values)), key=lambda i: abs(self.x_of(i) - x)))
+
+
+def _label(painter: QPainter, text: str, y: float) -> None:
+    """On a ground of its own: neither hatch nor line runs through the figures."""
+    holds = theme.colours()
+    metrics = painter.fontMetrics()
+    box = QRectF(MARGIN + 2, y - metrics.height() / 2, metrics.horizontalAdvance(text) + 8, metrics.height())
+    ground = QColor(holds.panel)
+    ground.setAlphaF(GROUND)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(ground)
+    painter.drawRoundedRect(box, 3, 3)
+    painter.setPen(QColor(holds.muted))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
 def _round(value: float) -> float:

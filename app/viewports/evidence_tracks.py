@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPolygonF
+from PySide6.QtGui import QPainter, QPolygonF
 
 from floorcast_app.layers.evidence import EvidenceLayer
 from floorcast_app.theme import Colours
-from floorcast_app.viewports.plan_frame import SMALL, colour, draw_text, font, pen
+from floorcast_app.viewports.plan_frame import SMALL, colour, draw_text, pen, text_size
 from floorcast_app.viewports.plan_observed_views import plane_colour
 
 GRADIENT = 1.1  # the most of either sign that the track shows
@@ -85,9 +85,13 @@ def paint_response(
 
 
 def paint_label(painter: QPainter, track: QRectF, text: str, c: Colours) -> None:
-    """The frame of a track and its name, reading upwards."""
+    """The frame of a track and its name: reading upwards beside it, in a low track level and inside."""
     painter.setPen(pen(c.line_strong, 1.0))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawRect(track)
-    shown = QFontMetricsF(font(SMALL)).elidedText(text, Qt.TextElideMode.ElideRight, track.height())
-    draw_text(painter, shown, (track.left() - 14, track.center().y()), SMALL, colour(c.muted), 400, True)
+    width, height = text_size(text, SMALL)
+    if width <= track.height():
+        draw_text(painter, text, (track.left() - 14, track.center().y()), SMALL, colour(c.muted), 400, True)
+        return
+    at = (track.left() + 6 + width / 2, track.top() + 3 + height / 2)
+    draw_text(painter, text, at, SMALL, colour(c.muted), halo=colour(c.panel, 0.85))

@@ -9,15 +9,15 @@ from PySide6.QtWidgets import QFrame, QLabel, QSlider, QToolButton, QVBoxLayout,
 from floorcast_app import format, theme
 from floorcast_app.translation import tr
 from floorcast_app.viewports.canvas import PlanCanvas
+from floorcast_app.viewports.free_space_legend import paint_legend
 from floorcast_app.viewports.listening import listen, stop_listening
-from floorcast_app.viewports.plan_frame import SMALL, Frame, colour, draw_text, text_size
+from floorcast_app.viewports.plan_frame import Frame, colour
 from floorcast_app.workbench import Workbench
 
 SETTING = "occupancy.slice_height"
 LOWEST, HIGHEST = 0.1, 3.0  # metres, of the slider; settings take more
 STEPS = 100  # of the slider for a metre
 DEBOUNCE = 150  # ms: no planning while the slider still moves
-SWATCH = 11.0  # pixels
 
 
 class FreeSpaceView(PlanCanvas):
@@ -46,7 +46,7 @@ class FreeSpaceView(PlanCanvas):
     def _paint_over(self, painter: QPainter, frame: Frame, interactive: bool) -> None:
         super()._paint_over(painter, frame, interactive)
         if self._drawing is not None and "free_space" in frame.look.layers:
-            _paint_legend(painter, frame)
+            paint_legend(painter, frame, self._drawing.source)
 
     def shut_down(self) -> None:
         self.height_slider.shut_down()
@@ -141,30 +141,3 @@ class HeightSlider(QFrame):
             f"QSlider::handle:vertical {{ width: 12px; height: 12px; margin: 0 -5px; border-radius: 7px;"
             f" background: {c.panel}; border: 1px solid {c.accent}; }}"
         )
-
-
-def _paint_legend(painter: QPainter, frame: Frame) -> None:
-    """What the tones mean, at the upper left."""
-    c = frame.colours
-    entries = [
-        (tr("Free"), c.free),
-        (tr("Predicted"), c.predicted),
-        (tr("Occupied"), c.occupied),
-        (tr("Not seen"), c.unobserved),
-    ]
-    wide = sum(text_size(text, SMALL)[0] + SWATCH + 22 for text, _ in entries) + 4
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour(c.panel, 0.88))
-    painter.drawRoundedRect(10, 10, round(wide), 24, 5, 5)
-    x = 20.0
-    for text, tone in entries:
-        painter.setPen(colour(c.line_strong))
-        painter.setBrush(colour(tone))
-        painter.drawRect(round(x), 16, round(SWATCH), round(SWATCH))
-        if tone == c.predicted:
-            painter.setPen(colour(QColor(tone).darker(145).name()))
-            for k in (3, 8):
-                painter.drawLine(round(x) + k - 2, 27, round(x) + k + 3, 17)
-        width = text_size(text, SMALL)[0]
-        draw_text(painter, text, (x + SWATCH + 6 + width / 2, 22), SMALL, colour(c.text))
-        x += SWATCH + width + 22

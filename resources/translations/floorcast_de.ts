@@ -2851,6 +2851,10 @@
    <translation>Einheit</translation>
   </message>
   <message>
+   <source>Unit as guessed</source>
+   <translation>Einheit wie vermutet</translation>
+  </message>
+  <message>
    <source>Unit of the file's coordinates; us-ft is the US survey foot.</source>
    <translation>Einheit der Koordinaten der Datei; us-ft ist der US-Vermessungsfuß.</translation>
   </message>
@@ -2861,6 +2865,10 @@
   <message>
    <source>Up</source>
    <translation>Hochachse</translation>
+  </message>
+  <message>
+   <source>Up axis as guessed</source>
+   <translation>Hochachse wie vermutet</translation>
   </message>
   <message>
    <source>Use</source>
@@ -3249,14 +3257,6 @@
   <message>
    <source>type it here</source>
    <translation>hier eingeben</translation>
-  </message>
-  <message>
-   <source>unit as guessed</source>
-   <translation>Einheit wie vermutet</translation>
-  </message>
-  <message>
-   <source>up axis as guessed</source>
-   <translation>Hochachse wie vermutet</translation>
   </message>
   <message>
    <source>wall</source>

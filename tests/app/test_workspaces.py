@@ -32,3 +32,20 @@ def test_every_workspace_comes_back_as_it_was(qtbot: QtBot) -> None:
         window.workbench.run(f"view.{name}")
         qtbot.waitUntil(lambda n=name: _seen_tabs(window) == first[n])  # type: ignore[misc]
     window.close()
+
+
+def test_the_tables_do_not_take_what_a_larger_window_gives(qtbot: QtBot) -> None:
+    make_application()
+    window = make_window(unattended=True)
+    qtbot.addWidget(window)
+    window.resize(1280, 720)
+    window.show()
+    qtbot.wait(200)
+    share = window.docks["items"].height() / window.height()
+    window.workbench.run("view.run")
+    qtbot.wait(100)
+    window.resize(1920, 1200)
+    qtbot.wait(200)
+    window.workbench.run("view.inspect")
+    qtbot.waitUntil(lambda: window.docks["items"].height() / window.height() < 1.6 * share)
+    window.close()

@@ -251,6 +251,13 @@ def test_guesses_are_shown_once_and_can_be_changed(planned: Workbench, qtbot: Qt
     banner = AssumptionsBanner(planned, window)
     planned.plan_changed.emit(planned.plan)
     assert banner.isVisible()
+    dock = QDockWidget(window)
+    window.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, dock)
+    qtbot.waitUntil(lambda: dock.y() >= banner.geometry().bottom() > 20)  # it covers nothing
+    for width in (1000, 800):  # its words are never cut
+        window.resize(width, 600)
+        qtbot.waitUntil(lambda w=width: banner.width() == w)  # type: ignore[misc]
+        assert banner.text.height() >= banner.text.heightForWidth(banner.text.width())
     assert "metres" in banner.text.text() and "input.unit" not in banner.text.text()
     said: list[dict[str, object]] = []
     monkeypatch.setattr(planned, "try_run", lambda id, **a: said.append(a))

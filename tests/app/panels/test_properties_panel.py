@@ -51,7 +51,8 @@ def _link(panel: PropertiesPanel, qtbot: QtBot, text: str) -> Link:
     """What can be clicked, once it is seen."""
 
     def links() -> list[Link]:
-        return [lk for lk in panel.findChildren(Link) if lk.text() == text and lk.isVisible()]
+        said = [(lk, lk.text().replace("\N{NO-BREAK SPACE}", " ")) for lk in panel.findChildren(Link)]
+        return [lk for lk, words in said if words == text and lk.isVisible()]
 
     qtbot.waitUntil(lambda: bool(links()))
     return links()[-1]

@@ -56,3 +56,26 @@ def test_the_slider_gives_way_in_small_panes(qtbot, drawn):
     assert not pane.height_slider.isVisible()
     pane.resize(400, 500)
     assert pane.height_slider.isVisible()
+
+
+def test_the_legend_stands_in_a_column_where_a_row_would_hide_the_plan(qtbot, drawn):
+    """In a low, wide pane that the plan fills from top to bottom the rooms keep their tones."""
+    pane = opened(qtbot, FreeSpaceView(drawn))
+    x0, y0, x1, y1 = shapely.union_all([r.polygon for r in drawn.plan.regions]).bounds
+    drawn.view.set(centre=((x0 + x1) / 2, (y0 + y1) / 2), span=y1 - y0, layers=frozenset({"free_space"}))
+    tall = 240
+    wide = round(tall * (x1 - x0) / (y1 - y0)) + 320  # 160 pixels beside the plan at either side
+    with_legend = pane.picture(wide, tall, scale_bar=False)
+    scale = tall / (y1 - y0)
+    rooms = shapely.union_all([r.polygon for r in drawn.plan.regions])
+    under = [
+        QColor(with_legend.pixel(px, py)).name()
+        for py in range(12, 32, 4)
+        for px in range(12, wide - 70, 4)
+        if rooms.contains(
+            shapely.Point((x0 + x1) / 2 + (px - wide / 2) / scale, (y0 + y1) / 2 - (py - tall / 2) / scale)
+        )
+    ]
+    assert len(under) > 20
+    assert np.mean([name == theme.colours().free for name in under]) > 0.5
+    assert QColor(with_legend.pixel(14, 14 + 60)).name() != theme.colours().unobserved
