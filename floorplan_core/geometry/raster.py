@@ -35,18 +35,11 @@ def polygon_window(
     polygon: Any, origin: Float, cell: float, shape: tuple[int, ...]
 ) -> tuple[tuple[slice, slice], Bool]:
     """The same for the cells around the polygon only: rows and columns, and their mask."""
-    if polygon.is_empty:
-        return (slice(0, 0), slice(0, 0)), np.zeros((0, 0), dtype=bool)
-    x0, y0, x1, y1 = polygon.bounds
-    i0, i1 = (_index(v, origin[0], cell, shape[1]) for v in (x0, x1))
-    j0, j1 = (_index(v, origin[1], cell, shape[0]) for v in (y0, y1))
     edges = edges_of(polygon)
-    return (slice(j0, j1), slice(i0, i1)), _fill(edges, i0, j0, i1 - i0, j1 - j0, origin[0], origin[1], cell)
-
-
-def _index(value: float, origin: float, cell: float, count: int) -> int:
-    """The first cell whose centre is not below ``value``, within the grid."""
-    return min(max(math.ceil((value - origin) / cell - 0.5), 0), count)
+    if not len(edges):
+        return (slice(0, 0), slice(0, 0)), np.zeros((0, 0), dtype=bool)
+    i0, j0, inside = _fill(edges, shape[0], shape[1], origin[0], origin[1], cell)
+    return (slice(j0, j0 + inside.shape[0]), slice(i0, i0 + inside.shape[1])), inside
 
 
 def edges_of(polygon: Any) -> Float:
@@ -61,11 +54,19 @@ def edges_of(polygon: Any) -> Float:
 
 
 @njit(cache=True, nogil=True)
-def _fill(edges, i0, j0, nx, ny, left, bottom, cell):  # type: ignore[no-untyped-def]
-    """(ny, nx) even-odd fill: each edge marks, in each row that it crosses, the first cell to its right.
+def _fill(edges, rows, columns, left, bottom, cell):  # type: ignore[no-untyped-def]
+    """Even-odd fill: each edge marks, in each row that it crosses, the first cell to its right.
 
     Cells are counted on the whole grid, so that polygons that share an edge round it alike.
+
+    :return: first column, first row, mask (ny, nx) of the cells around the polygon.
     """
+    i0, i1 = (
+        _cell_at(edges[:, 0].min(), left, cell, columns),
+        _cell_at(edges[:, 0].max(), left, cell, columns),
+    )
+    j0, j1 = _cell_at(edges[:, 1].min(), bottom, cell, rows), _cell_at(edges[:, 1].max(), bottom, cell, rows)
+    nx, ny = i1 - i0, j1 - j0
     crossings = np.zeros((ny, nx + 1), dtype=np.bool_)
     for x0, y0, x1, y1 in edges:
         first = min(max(math.ceil((min(y0, y1) - bottom) / cell - 0.5), j0), j0 + ny) - j0
@@ -82,7 +83,13 @@ def _fill(edges, i0, j0, nx, ny, left, bottom, cell):  # type: ignore[no-untyped
         for column in range(nx):
             inside ^= crossings[row, column]
             out[row, column] = inside
-    return out
+    return i0, j0, out
+
+
+@njit(cache=True, nogil=True)
+def _cell_at(value, start, cell, count):  # type: ignore[no-untyped-def]
+    """The first cell whose centre is not below ``value``, within the grid."""
+    return min(max(math.ceil((value - start) / cell - 0.5), 0), count)
 
 
 def cells_to_polygon(mask: Bool, origin: Float, cell: float) -> Any:

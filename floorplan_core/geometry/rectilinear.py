@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.raster import cells_to_polygon
@@ -19,17 +20,48 @@ _EXACT = 1e-9  # m, beyond which sums of coordinates may differ in their last bi
 
 def corners(ring: Float) -> Float:
     """(N, 2) corners of a closed rectilinear ring: no repeated, no collinear vertices; not closed."""
-    points = ring[:-1] if np.abs(ring[0] - ring[-1]).max() < _SAME else ring
+    return np.asarray(_corners(ring))
+
+
+@njit(cache=True, nogil=True)
+def _corners(ring):  # type: ignore[no-untyped-def]
+    points, count, keep = ring.copy(), len(ring), np.empty(len(ring), dtype=np.bool_)
+    if abs(ring[0, 0] - ring[-1, 0]) < _SAME and abs(ring[0, 1] - ring[-1, 1]) < _SAME:
+        count -= 1
     while True:
-        before, after = np.concatenate([points[-1:], points[:-1]]), np.concatenate([points[1:], points[:1]])
-        still = np.abs(points - before) < _SAME
-        straight = still & (np.abs(after - points) < _SAME)
-        # Repeated points go first: beside its copy a corner would look like a point of a side.
-        repeated = still.all(axis=1)
-        keep = ~repeated if repeated.any() else ~straight.any(axis=1)
-        if keep.all() or keep.sum() < 4:
-            return points if keep.all() else points[:0]
-        points = points[keep]
+        kept = _mark_corners(points[:count], keep)
+        if kept == count:
+            return points[:count]
+        if kept < 4:
+            return points[:0]
+        at = 0
+        for k in range(count):
+            if keep[k]:
+                points[at, 0], points[at, 1] = points[k, 0], points[k, 1]
+                at += 1
+        count = kept
+
+
+@njit(cache=True, nogil=True)
+def _mark_corners(points, keep):  # type: ignore[no-untyped-def]
+    """Mark in ``keep`` the points that differ from those before them, or, where all do, the corners."""
+    count, repeated = len(points), 0
+    for k in range(count):
+        still = abs(points[k, 0] - points[k - 1, 0]) < _SAME and abs(points[k, 1] - points[k - 1, 1]) < _SAME
+        keep[k] = not still
+        repeated += still
+    if repeated > 0:  # these go first: beside its copy a corner would look like a point of a side
+        return count - repeated
+    kept = 0
+    for k in range(count):
+        after = k + 1 if k + 1 < count else 0
+        keep[k] = True
+        for axis in range(2):
+            at = points[k, axis]
+            if abs(at - points[k - 1, axis]) < _SAME and abs(points[after, axis] - at) < _SAME:
+                keep[k] = False
+        kept += keep[k]
+    return kept
 
 
 def move_sides(ring: Float, targets: Callable[[Float], Float]) -> Float:
@@ -38,39 +70,51 @@ def move_sides(ring: Float, targets: Callable[[Float], Float]) -> Float:
     :param targets: of the (N, 2) corners, the (N,) offsets to which the sides that begin there are moved.
     """
     points = corners(ring)
-    if len(points) == 0:
-        return points
-    out, following = points.copy(), np.roll(np.arange(len(points)), -1)
-    across = (np.abs(points[:, 0] - points[following, 0]) >= _SAME).astype(np.int64)
-    offsets = targets(points)
-    out[np.arange(len(points)), across] = offsets
-    out[following, across] = offsets
+    return np.asarray(_moved(points, targets(points))) if len(points) else points
+
+
+@njit(cache=True, nogil=True)
+def _moved(points, offsets):  # type: ignore[no-untyped-def]
+    out = points.copy()
+    for k in range(len(points)):
+        following = k + 1 if k + 1 < len(points) else 0
+        across = int(abs(points[k, 0] - points[following, 0]) >= _SAME)
+        out[k, across] = out[following, across] = offsets[k]
     return out
 
 
 def map_polygon(polygon: Any, move: Callable[[Float], Float]) -> Any:
     """Apply ``move`` to the corners of each ring, the inside at its left; holes that collapse are dropped."""
-    polygon = shapely.orient_polygons(polygon)
-    shell = move(np.asarray(polygon.exterior.coords))
-    holes = [move(np.asarray(ring.coords)) for ring in polygon.interiors]
+    rings = shapely.get_rings(shapely.orient_polygons(polygon))
+    shell, *holes = (move(shapely.get_coordinates(ring)) for ring in rings)
+    if not holes:  # most rooms
+        return shapely.polygons(shell) if len(shell) else shapely.Polygon()
     return shapely.Polygon(shell, [h for h in holes if len(h) >= 4])
 
 
 def union_boxes(boxes: Float) -> Any:
     """The union of (K, 4) boxes x0, y0, x1, y1, exactly: painted on the grid of their own coordinates."""
-    xs, column = np.unique(boxes[:, [0, 2]], return_inverse=True)
-    ys, row = np.unique(boxes[:, [1, 3]], return_inverse=True)
-    mask = np.zeros((len(ys), len(xs)), dtype=bool)
-    for (x0, x1), (y0, y1) in zip(column.reshape(-1, 2), row.reshape(-1, 2), strict=True):
-        mask[y0:y1, x0:x1] = True
+    xs, ys, mask = _paint(boxes)
     if mask.all():  # most rooms
-        return shapely.MultiPolygon([_rectangle(xs[0], ys[0], xs[-1], ys[-1])])
+        return shapely.box(xs[0], ys[0], xs[-1], ys[-1])
 
     def place(index: Float) -> Float:
         cells = np.rint(index).astype(np.int64)
         return np.column_stack([xs[cells[:, 0]], ys[cells[:, 1]]])
 
     return shapely.transform(cells_to_polygon(mask, np.zeros(2), 1.0), place)
+
+
+@njit(cache=True, nogil=True)
+def _paint(boxes):  # type: ignore[no-untyped-def]
+    """The X and Y coordinates of boxes, in order; (Y - 1, X - 1) which cells between these they hold."""
+    xs, ys = np.unique(boxes[:, ::2].copy().ravel()), np.unique(boxes[:, 1::2].copy().ravel())
+    mask = np.zeros((len(ys) - 1, len(xs) - 1), dtype=np.bool_)
+    for x0, y0, x1, y1 in boxes:
+        left, right = np.searchsorted(xs, x0), np.searchsorted(xs, x1)
+        for row in range(np.searchsorted(ys, y0), np.searchsorted(ys, y1)):
+            mask[row, left:right] = True
+    return xs, ys, mask
 
 
 def open_polygon(polygon: Any, width: float) -> Any:
@@ -81,8 +125,8 @@ def open_polygon(polygon: Any, width: float) -> Any:
     """
     if width <= 0:
         return polygon
-    if (bounds := as_rectangle(polygon)) is not None and _narrow_side(polygon) > 2 * width:
-        return _opened_rectangle(*bounds, width / 2)
+    if (sides := as_rectangle(polygon)) and min(sides[2] - sides[0], sides[3] - sides[1]) > 2 * width:
+        return _opened_rectangle(*sides, width / 2)
     shrunk = shapely.difference(polygon, shapely.union_all(_borders(polygon, width / 2)))
     grown = shapely.union_all([shrunk, *_borders(shrunk, width / 2)])
     return shapely.set_precision(grown, _EXACT)
@@ -90,25 +134,21 @@ def open_polygon(polygon: Any, width: float) -> Any:
 
 def as_rectangle(shape: Any) -> tuple[float, float, float, float] | None:
     """x0, y0, x1, y1 of a polygon, or of a multi-polygon of one, that is a rectangle along the axes."""
-    if shapely.get_num_coordinates(shape) != 5 or shapely.get_num_geometries(shape) != 1:
-        return None
-    x0, y0, x1, y1 = shape.bounds
     points = shapely.get_coordinates(shape)
-    square = np.isin(points[:, 0], (x0, x1)).all() and np.isin(points[:, 1], (y0, y1)).all()
-    moved = (points[1:] != points[:-1]).sum(axis=1)
-    return (x0, y0, x1, y1) if square and (moved == 1).all() else None
+    if len(points) != 5:
+        return None
+    (ax, ay), (bx, by), (cx, cy), (dx, dy), _ = points.tolist()
+    upright_first = ax == bx and by == cy and cx == dx and dy == ay
+    level_first = ay == by and bx == cx and cy == dy and dx == ax
+    if ax == cx or ay == cy or not (upright_first or level_first):
+        return None
+    return min(ax, cx), min(ay, cy), max(ax, cx), max(ay, cy)
 
 
 def _opened_rectangle(x0: float, y0: float, x1: float, y1: float, half: float) -> Any:
     """What is left of a rectangle after its opening: itself, to the last bits as the boxes would have it."""
     x0, y0, x1, y1 = (x0 + half) - half, (y0 + half) - half, (x1 - half) + half, (y1 - half) + half
-    return shapely.set_precision(_rectangle(x0, y0, x1, y1, 1), _EXACT, mode="pointwise")
-
-
-def _rectangle(x0: float, y0: float, x1: float, y1: float, first: int = 0) -> Any:
-    """A rectangle, counter-clockwise from its ``first`` corner (0 is x0, y0)."""
-    around = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
-    return shapely.Polygon(around[first:] + around[:first])
+    return shapely.set_precision(shapely.box(x0, y0, x1, y1), _EXACT, mode="pointwise")
 
 
 def close_polygon(shape: Any, width: float) -> Any:
@@ -142,20 +182,26 @@ def _narrow_side(ring: Any) -> float:
     return float(min(x1 - x0, y1 - y0))
 
 
-def chords(edges: Float, axis: int, offset: float) -> list[tuple[float, float]]:
-    """From where to where along the line at ``offset`` across ``axis`` it runs inside a polygon, in order.
+@njit(cache=True, nogil=True)
+def chords(edges, axis, offset):  # type: ignore[no-untyped-def]
+    """(K, 2) from where to where the line at ``offset`` across ``axis`` runs inside a polygon, in order.
 
     A line along a side counts as just beyond it in the positive direction.
 
     :param edges: (E, 4) x0, y0, x1, y1 of all rings of the polygon.
     """
-    crossed = edges[(edges[:, axis] <= offset) != (edges[:, axis + 2] <= offset)]
-    u0, v0, u1, v1 = crossed[:, [axis, 1 - axis, axis + 2, 3 - axis]].T
-    at = np.sort(v0 + (offset - u0) * ((v1 - v0) / (u1 - u0))).tolist()
-    return list(zip(at[::2], at[1::2], strict=True))
+    at, count = np.empty(len(edges)), 0
+    for k in range(len(edges)):
+        u0, v0, u1, v1 = edges[k, axis], edges[k, 1 - axis], edges[k, axis + 2], edges[k, 3 - axis]
+        if (u0 <= offset) != (u1 <= offset):
+            at[count] = v0 + (offset - u0) * ((v1 - v0) / (u1 - u0))
+            count += 1
+    return np.sort(at[:count])[: count - count % 2].reshape(-1, 2)
 
 
 def polygons_of(shape: Any) -> list[Any]:
     """The polygons of a polygon, multi-polygon or collection, largest first."""
+    if shape.geom_type == "Polygon":
+        return [shape] if shape.area > 0 else []
     parts = [p for p in shapely.get_parts(shape) if p.geom_type == "Polygon" and p.area > 0]
     return sorted(parts, key=lambda p: (-p.area, p.bounds))

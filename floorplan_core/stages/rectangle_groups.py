@@ -39,23 +39,52 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
     """
     if len(bounds) == 0:
         return []
-    x0, y0, x1, y1 = bounds.T
-    wide = np.minimum(x1[:, None], x1) - np.maximum(x0[:, None], x0)
-    high = np.minimum(y1[:, None], y1) - np.maximum(y0[:, None], y0)
-    linked = (wide > _OVERLAP) & (high > _OVERLAP)
-    label = _components(linked)
-    parted = (np.minimum(wide, high) < 0) | (
-        label[:, None] != label
-    )  # others touch and are one region anyway
-    border = parted & (np.minimum(wide, high) > -_OVERLAP) & (np.maximum(wide, high) > _PASSAGE) & ~linked
-    pairs = np.argwhere(np.triu(border, 1))
-    axes = np.where(wide[pairs[:, 0], pairs[:, 1]] < high[pairs[:, 0], pairs[:, 1]], 0, 1)
-    pair, boxes = _open_borders(bounds, pairs, axes, *(_by_offset(walls[axis]) for axis in (0, 1)))
-    first, second = pairs[pair].T
+    linked = _overlapping(bounds)
+    borders = _shared_borders(bounds, _components(linked))
+    border, boxes = _open_borders(bounds, borders, *(_by_offset(walls[axis]) for axis in (0, 1)))
+    first, second, _ = borders[border].T
     linked[first, second] = linked[second, first] = True
     label = _components(linked)
     groups = [np.flatnonzero(label == k) for k in range(int(label.max()) + 1)]
     return [(g, boxes[label[first] == k]) for k, g in enumerate(groups)]  # by row, as they were found
+
+
+@njit(cache=True, nogil=True)
+def _overlapping(bounds):  # type: ignore[no-untyped-def]
+    """(C, C) which rectangles overlap."""
+    linked = np.empty((len(bounds), len(bounds)), dtype=np.bool_)
+    for a in range(len(bounds)):
+        for b in range(a, len(bounds)):
+            wide, high = _common(bounds, a, b)
+            linked[a, b] = linked[b, a] = wide > _OVERLAP and high > _OVERLAP
+    return linked
+
+
+@njit(cache=True, nogil=True)
+def _shared_borders(bounds, label):  # type: ignore[no-untyped-def]
+    """(P, 3) the pairs that do not overlap but share a border, in order, and the axis across it.
+
+    Of two that touch and belong together anyway (``label``) none is asked for.
+    """
+    found = []
+    for a in range(len(bounds)):
+        for b in range(a + 1, len(bounds)):
+            wide, high = _common(bounds, a, b)
+            least, most = min(wide, high), max(wide, high)
+            parted = least < 0 or label[a] != label[b]
+            if parted and -_OVERLAP < least <= _OVERLAP and most > _PASSAGE:
+                found.append((a, b, 0 if wide < high else 1))
+    borders = np.empty((len(found), 3), dtype=np.int64)
+    for k in range(len(found)):
+        borders[k, 0], borders[k, 1], borders[k, 2] = found[k]
+    return borders
+
+
+@njit(cache=True, nogil=True)
+def _common(bounds, a, b):  # type: ignore[no-untyped-def]
+    """Metres that two rectangles have in common along x and along y; negative: between them."""
+    wide = min(bounds[a, 2], bounds[b, 2]) - max(bounds[a, 0], bounds[b, 0])
+    return wide, min(bounds[a, 3], bounds[b, 3]) - max(bounds[a, 1], bounds[b, 1])
 
 
 @njit(cache=True, nogil=True)
@@ -87,25 +116,26 @@ def _by_offset(walls: Float) -> Float:
 
 
 def _open_borders(
-    bounds: Float, pairs: NDArray[np.int64], axes: NDArray[np.int64], upright: Float, level: Float
+    bounds: Float, borders: NDArray[np.int64], upright: Float, level: Float
 ) -> tuple[NDArray[np.int64], Float]:
-    """Boxes across the parts of the borders of pairs of rectangles that are not wall, and the pair of each.
+    """Boxes across the parts of the borders that are not wall, and the border of each.
 
-    :param axes: (P,) across which each border lies; ``upright`` and ``level`` walls are by offset.
+    :param borders: (P, 3) the two rectangles, and the axis across which it lies.
+    :param upright: walls across x by offset; ``level``: across y.
     """
-    counted = _fill_borders(bounds, pairs, axes, upright, level, np.empty(0, np.int64), np.empty((0, 4)))
-    pair, boxes = np.empty(counted, dtype=np.int64), np.empty((counted, 4))
-    _fill_borders(bounds, pairs, axes, upright, level, pair, boxes)
-    return pair, boxes
+    counted = _fill_borders(bounds, borders, upright, level, np.empty(0, np.int64), np.empty((0, 4)))
+    border, boxes = np.empty(counted, dtype=np.int64), np.empty((counted, 4))
+    _fill_borders(bounds, borders, upright, level, border, boxes)
+    return border, boxes
 
 
 @njit(cache=True, nogil=True)
-def _fill_borders(bounds, pairs, axes, upright, level, pair, boxes):  # type: ignore[no-untyped-def]
-    """Fill ``pair`` and ``boxes`` as far as there is room; returns how many there are."""
+def _fill_borders(bounds, borders, upright, level, border, boxes):  # type: ignore[no-untyped-def]
+    """Fill ``border`` and ``boxes`` as far as there is room; returns how many there are."""
     count = 0
     runs = np.empty((max(len(upright), len(level)) + 1, 2))
-    for p in range(len(pairs)):
-        a, b, axis = bounds[pairs[p, 0]], bounds[pairs[p, 1]], axes[p]
+    for p in range(len(borders)):
+        a, b, axis = bounds[borders[p, 0]], bounds[borders[p, 1]], borders[p, 2]
         walls = upright if axis == 0 else level
         u0, u1 = max(a[axis], b[axis]), min(a[axis + 2], b[axis + 2])
         u0, u1 = min(u0, u1), max(u0, u1)
@@ -116,7 +146,7 @@ def _fill_borders(bounds, pairs, axes, upright, level, pair, boxes):  # type: ig
             end = min(runs[r, 0], high)
             if end - at >= _PASSAGE:
                 if count < len(boxes):
-                    pair[count] = p
+                    border[count] = p
                     boxes[count, axis], boxes[count, axis + 2] = u0, u1
                     boxes[count, 1 - axis], boxes[count, 3 - axis] = at, end
                 count += 1

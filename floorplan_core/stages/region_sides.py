@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides
@@ -146,7 +147,7 @@ def sides_of(polygon: Any, walls: WallSurfaces, doors: Sequence[Door]) -> tuple[
 def _sides(polygon: Any, walls: WallSurfaces, doors: Float) -> tuple[RegionSide, ...]:
     out: list[RegionSide] = []
     for ring, hole in ((polygon.exterior, False), *((ring, True) for ring in polygon.interiors)):
-        points = corners(np.asarray(ring.coords))
+        points = corners(shapely.get_coordinates(ring))
         ends = [(x, y) for x, y in points.tolist()]
         for a, b, (share, plane, residual) in zip(
             ends, ends[1:] + ends[:1], walls.measure(points, doors), strict=True

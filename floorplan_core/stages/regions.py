@@ -74,9 +74,7 @@ def build_regions(
         for polygon, (_, rows) in zip(whole, apart, strict=True)
     ]
     kept = [r for r in regions if _acceptable(r, config)]
-    kept.sort(
-        key=lambda r: (-round(r.polygon.representative_point().y, 1), r.polygon.representative_point().x)
-    )
+    kept.sort(key=_reading_order)
     return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(kept))
 
 
@@ -95,12 +93,12 @@ def _disjoint(
         return -round(free / total, 6) if total else 0.0, -piece[0].area, piece[0].bounds
 
     ordered = sorted(pieces, key=rank)
-    shapes = [p if p.is_valid else shapely.make_valid(p) for p, _ in ordered]
-    tree = shapely.STRtree(shapes)
+    shapes = np.array([p if p.is_valid else shapely.make_valid(p) for p, _ in ordered], dtype=object)
+    later, earlier = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     done: list[Any] = []
     out: list[tuple[Any, NDArray[np.int64]]] = []
     for k, (_, rows) in enumerate(ordered):
-        before = [done[j] for j in np.sort(tree.query(shapes[k], predicate="intersects")) if j < k]
+        before = [done[j] for j in np.sort(earlier[(later == k) & (earlier < k)])]
         rest = shapes[k]
         if before:
             rest = open_polygon(shapely.difference(rest, shapely.union_all(before)), sliver)
@@ -145,6 +143,12 @@ def region_of(
         confidence=confidence,
         rectangles=rows,
     )
+
+
+def _reading_order(region: Region) -> tuple[float, float]:
+    """Top to bottom, in steps of a decimetre, then left to right."""
+    place = region.polygon.representative_point()
+    return -round(place.y, 1), place.x
 
 
 def _acceptable(region: Region, config: RegionsConfig) -> bool:

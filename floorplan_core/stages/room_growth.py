@@ -25,17 +25,13 @@ from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import as_rectangle, polygons_of
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
 from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
+from floorplan_core.stages.walls_ahead import DEEP, ON, WALL, WallsAhead
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
 
 _REACH = 4.0  # m from a guessed side, within which the next wall ahead closes the room
-_FAR = 3 * _REACH  # m around a room, where the regions are that it must not touch
 _BORROWED = 2.5  # m, the same for a plane of the building whose wall was seen elsewhere
-_ON = 0.08  # m between a side and a plane on which it lies
-_DEEP = 0.15  # m: a wall less deep in the new part is its side
-_WALL = 0.3  # m of wall that counts
-_FACES = 0.3  # share of a side that a wall ahead must face to close it
 _KNOWN = 0.25  # share of the sides around a notch that may have been seen
 _OPEN = 0.05  # share of cells in the new part that may have been seen free and yet taken for no room
 _CRUMB = 0.5  # m2 of free cells in no room: less is a few stray rays, and no open air
@@ -87,19 +83,30 @@ class Neighbours:
         self._polygons = np.array(polygons, dtype=object)
         self._bounds = shapely.bounds(self._polygons).reshape(-1, 4)
 
+    def leave(self, row: int) -> None:
+        """The polygon in a row grows: it is no neighbour of itself."""
+        self._bounds[row] = np.nan  # near nothing
+
+    def join(self, row: int, polygon: Any) -> None:
+        """The polygon in a row has grown to ``polygon``."""
+        self._polygons[row], self._bounds[row] = polygon, shapely.bounds(polygon)
+
     def within(self, part: Any) -> NDArray[np.object_]:
         """What ``part`` has in common with each of those whose bounds it meets."""
         return np.asarray(shapely.intersection(self._polygons[self._near(part)], part))
 
     def bounds_within(self, part: Any) -> Float:
         """(N, 4) the bounds of what the box ``part`` has in common with each that it meets."""
-        clipped = shapely.clip_by_rect(self._polygons[self._near(part)], *part.bounds)
+        near = self._near(part)
+        if not near.any():
+            return np.empty((0, 4))
+        clipped = shapely.clip_by_rect(self._polygons[near], *part.bounds)
         return np.asarray(shapely.bounds(clipped[~shapely.is_empty(clipped)]))
 
     def _near(self, part: Any) -> Bool:
         x0, y0, x1, y1 = part.bounds
-        low, high = self._bounds[:, :2], self._bounds[:, 2:]
-        return np.asarray((low <= (x1, y1)).all(axis=1) & (high >= (x0, y0)).all(axis=1))
+        left, low, right, high = self._bounds.T
+        return np.asarray((left <= x1) & (low <= y1) & (right >= x0) & (high >= y0))
 
 
 class RoomGrower:
@@ -118,13 +125,8 @@ class RoomGrower:
         self.sides = KnownSides(walls, doors)
         self._usual = self._deep = 0.0
         self._outdoors = _large_patches((grid.states == FREE) & ~grid.universe, _CRUMB / grid.cell**2)
+        self._ahead = WallsAhead(planes, walls.thickness)
         runs = [(p.facing, p.offset, s, e) for p in planes for s, e in p.walls.tolist()]
-        self._runs = {
-            f: np.array([run[1:] for run in runs if run[0] == f]).reshape(-1, 3) for f in Facing
-        }  # offset, start, end
-        self._across = {
-            axis: np.concatenate([self._runs[f] for f in Facing if f.axis != axis]) for axis in (0, 1)
-        }
         self._lines = _lines([_line(*run) for run in runs])
         self._tree = shapely.STRtree(self._lines)
         seen = [p for p in planes if not p.speculated]
@@ -134,13 +136,12 @@ class RoomGrower:
 
     def grow_all(self, polygons: Sequence[Any]) -> list[Any]:
         """Each polygon completed, one after the other, beside the others as they are by then."""
-        grown = list(polygons)
-        self._usual, self._deep = self._usual_sizes(grown)
-        boxes = shapely.STRtree([shapely.box(*shapely.bounds(p)) for p in grown])
-        for k, polygon in enumerate(map(shapely.orient_polygons, polygons)):
-            x0, y0, x1, y1 = polygon.bounds
-            near = boxes.query(shapely.box(x0 - _FAR, y0 - _FAR, x1 + _FAR, y1 + _FAR))
-            grown[k] = self.grow(polygon, Neighbours([grown[j] for j in near if j != k]))
+        self._usual, self._deep = self._usual_sizes(polygons)
+        others, grown = Neighbours(polygons), []
+        for row, polygon in enumerate(polygons):
+            others.leave(row)
+            grown.append(self.grow(polygon, others))
+            others.join(row, grown[-1])
         return grown
 
     def grow(self, polygon: Any, others: Neighbours) -> Any:
@@ -209,24 +210,24 @@ class RoomGrower:
         """The polygon with each guessed side pushed out as far as it goes."""
         for front in list(self._frontiers(polygon)):
             depth = self._depth(front, polygon, others)
-            if depth > _ON and self._unknown(front.ahead(depth), polygon, others):
+            if depth > ON and self._unknown(front.ahead(depth), polygon, others):
                 polygon = polygon.union(front.ahead(depth))
         return _largest(polygon)
 
     def _frontiers(self, polygon: Any) -> Iterator[Frontier]:
         """The guessed sides; those on a plane of the building where nothing was seen of it are borrowed."""
-        for side in self._sides(polygon):
-            facing = self._walls.facing(np.array(side.start), np.array(side.end))
+        for side in (s for s in self._sides(polygon) if s.speculated):
+            facing = self._walls.facing(side.start, side.end)
             a = facing.axis
-            on_plane = bool((np.abs(self._offsets[facing] - side.start[a]) < _ON).any())
-            if side.speculated and not (on_plane and side.observed > 0):
+            on_plane = bool((np.abs(self._offsets[facing] - side.start[a]) < ON).any())
+            if not (on_plane and side.observed > 0):
                 low, high = sorted((side.start[1 - a], side.end[1 - a]))
                 yield Frontier(facing, side.start[a], low, high, on_plane)
 
     def _depth(self, front: Frontier, polygon: Any, others: Neighbours) -> float:
         """Metres by which a side goes out; 0 where it stays."""
-        reach = self._before_walls(front)
-        if min(reach.stop, reach.limit) <= _ON:
+        reach = Reach().within(*self._ahead.limits(front.facing, front.at, front.low, front.high))
+        if min(reach.stop, reach.limit) <= ON:
             return 0.0
         reach = self._before_regions(front, others, reach)
         reach = reach.within(self._to_own_side(front, polygon), _REACH)
@@ -235,14 +236,14 @@ class RoomGrower:
         if reach.stop <= reach.limit:
             return reach.stop
         planes = (self._borrowed[front.facing] - front.at) * front.out
-        planes = planes[(planes > _ON) & (planes <= min(reach.limit, _BORROWED))]
+        planes = planes[(planes > ON) & (planes <= min(reach.limit, _BORROWED))]
         if len(planes):
             return float(planes.min())
         return float(min(self._missing(front, polygon), reach.limit - self._walls.thickness))
 
     def _strip(self, front: Frontier, depth: float) -> float:
         """``depth`` where a strip lies ahead that has no door and is too narrow for a room; else 0."""
-        if not _ON < depth <= _STRIP * self._usual:
+        if not ON < depth <= _STRIP * self._usual:
             return 0.0
         beside = front.ahead(depth).buffer(_BESIDE)
         return 0.0 if shapely.intersects(beside, self._doors).any() else depth
@@ -253,10 +254,9 @@ class RoomGrower:
         ahead = [
             (side.start[a] - front.at) * front.out
             for side in self._sides(polygon)
-            if self._walls.facing(np.array(side.start), np.array(side.end)) == front.facing
-            and side.length * side.observed > _WALL
+            if self._walls.facing(side.start, side.end) == front.facing and side.length * side.observed > WALL
         ]
-        return min((u for u in ahead if u > _ON), default=np.inf)
+        return min((u for u in ahead if u > ON), default=np.inf)
 
     def _missing(self, front: Frontier, polygon: Any) -> float:
         """Metres that a room lacks to the usual width; half of it where its other side is guessed too."""
@@ -283,28 +283,9 @@ class RoomGrower:
         width, depth = np.median(sizes, axis=0)
         return float(width), float(depth)
 
-    def _before_walls(self, front: Frontier) -> Reach:
-        """A wall that faces much of the side closes the room; any other keeps it from going on."""
-        length, reach = front.high - front.low, Reach()
-        for facing in (front.facing, front.facing.opposite):
-            offset, start, end = self._runs[facing].T
-            ahead = (offset - front.at) * front.out
-            faced = np.minimum(end, front.high) - np.maximum(start, front.low)
-            met = (ahead > _ON) & (faced > min(_WALL, length / 2))
-            closing = ahead[met & (faced > _FACES * length)]
-            gap = 0.0 if facing == front.facing else self._walls.thickness
-            reach = reach.within(closing.min(initial=np.inf) - gap, ahead[met].min(initial=np.inf))
-        offset, start, end = self._across[front.facing.axis].T
-        near, far = (
-            (start - front.at, end - front.at) if front.out > 0 else (front.at - end, front.at - start)
-        )
-        near = np.maximum(near, 0.0)
-        beside = (front.low + _DEEP < offset) & (offset < front.high - _DEEP) & (far - near > _WALL)
-        return reach.within(np.inf, near[beside].min(initial=np.inf))
-
     def _before_regions(self, front: Frontier, others: Neighbours, reach: Reach) -> Reach:
         """Between two regions stands a wall."""
-        strip = front.ahead(_REACH, min(_DEEP, (front.high - front.low) / 3))
+        strip = front.ahead(_REACH, min(DEEP, (front.high - front.low) / 3))
         met = others.bounds_within(strip)
         if not len(met):
             return reach
@@ -319,10 +300,13 @@ class RoomGrower:
         window, inside = polygon_window(part, self._grid.origin, self._grid.cell, self._grid.states.shape)
         if np.count_nonzero(self._outdoors[window] & inside) > _OPEN * inside.sum():
             return False
-        near = self._lines[self._tree.query(part.buffer(_DEEP), predicate="intersects")]
-        before, after = (s.buffer(-_DEEP, join_style="mitre") for s in (polygon, polygon.union(part)))
+        x0, y0, x1, y1 = part.bounds
+        near = self._lines[self._tree.query(shapely.box(x0 - DEEP, y0 - DEEP, x1 + DEEP, y1 + DEEP))]
+        if not len(near):
+            return True
+        before, after = (s.buffer(-DEEP, join_style="mitre") for s in (polygon, polygon.union(part)))
         gained = shapely.length(shapely.intersection(near, after.difference(before)))
-        return not bool((gained > _WALL).any())
+        return not bool((gained > WALL).any())
 
 
 def _large_patches(mask: Bool, least: float) -> Bool:

@@ -37,12 +37,16 @@ class RoomSplitter:
         self, planes: Sequence[LayoutPlane], doors: Sequence[Door], grid: OccupancyGrid, thickness: float
     ) -> None:
         self._planes = [p for p in planes if not p.speculated and not p.recess]
-        self._doors, self._grid, self._thickness = doors, grid, thickness
+        self._grid, self._thickness = grid, thickness
+        self._doors = np.array([_before(d) for d in doors], dtype=np.float64).reshape(-1, 4)
 
     def split(self, polygon: Any) -> list[Any]:
         """The rooms of a region: itself, or its parts, each split again."""
+        doors = self._near(polygon)
+        if len(doors) < 2:  # most rooms
+            return [polygon]
         window, inside = polygon_window(polygon, self._grid.origin, self._grid.cell, self._grid.states.shape)
-        patches = self._patches(self._grid.universe[window] & inside, window)
+        patches = self._patches(self._grid.universe[window] & inside, doors, window)
         for k, one in enumerate(patches):
             for other in patches[k + 1 :]:
                 wall = self._wall_between(one, other, np.logical_or.reduce(patches), window)
@@ -51,7 +55,13 @@ class RoomSplitter:
                     return [room for part in parts for room in self.split(part)]
         return [polygon]
 
-    def _patches(self, free: Mask, window: tuple[slice, slice]) -> list[Mask]:
+    def _near(self, polygon: Any) -> Float:
+        """(D, 4) what lies before the doors that a cell of the polygon may lie before."""
+        low, high = np.array(polygon.bounds).reshape(2, 2)
+        reached = (self._doors[:, :2] < high + self._grid.cell) & (self._doors[:, 2:] > low - self._grid.cell)
+        return np.asarray(self._doors[reached.all(axis=1)])
+
+    def _patches(self, free: Mask, doors: Float, window: tuple[slice, slice]) -> list[Mask]:
         """The patches before doors; those before one door are one."""
         near = free
         for _ in range(_JOINED):
@@ -62,21 +72,17 @@ class RoomSplitter:
         if np.count_nonzero(large) < 2:
             return []  # what is one patch is not parted
         groups: list[set[int]] = []
-        for door in self._doors:
-            before = labels[self._before(door, window)]
+        for box in doors:
+            before = labels[self._cells_of(box, window)]
             group = {int(k) for k in np.unique(before) if large[k]} if before.size else set()
             joined = [g for g in groups if g & group]
             groups = [g for g in groups if not g & group] + ([group.union(*joined)] if group else [])
         return [np.isin(labels, list(group)) for group in sorted(groups, key=min)]
 
-    def _before(self, door: Door, window: tuple[slice, slice]) -> tuple[slice, slice]:
-        """The cells of the window within reach of a door, on both sides."""
-        reach = door.thickness / 2 + _BEFORE
-        low, high = np.array([door.offset - reach, door.start]), np.array([door.offset + reach, door.end])
-        if door.axis == 1:
-            low, high = low[::-1], high[::-1]
-        first = np.floor((low - self._grid.origin) / self._grid.cell).astype(int)
-        last = np.ceil((high - self._grid.origin) / self._grid.cell).astype(int)
+    def _cells_of(self, box: Float, window: tuple[slice, slice]) -> tuple[slice, slice]:
+        """The cells of the window that a box x0, y0, x1, y1 touches."""
+        first = np.floor((box[:2] - self._grid.origin) / self._grid.cell).astype(int)
+        last = np.ceil((box[2:] - self._grid.origin) / self._grid.cell).astype(int)
         rows, columns = window
         return (
             slice(max(first[1] - rows.start, 0), max(last[1] - rows.start, 0)),
@@ -119,3 +125,10 @@ class RoomSplitter:
         if axis == 0:
             return shapely.box(middle - half, y0, middle + half, y1)
         return shapely.box(x0, middle - half, x1, middle + half)
+
+
+def _before(door: Door) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 of what is within reach of a door, on both sides."""
+    reach = door.thickness / 2 + _BEFORE
+    u0, u1, v0, v1 = door.offset - reach, door.offset + reach, door.start, door.end
+    return (u0, v0, u1, v1) if door.axis == 0 else (v0, u0, v1, u1)

@@ -25,15 +25,15 @@ _HALF = 0.05  # m on each side of a seen face
 
 def cut_walls(polygon: Any, walls: Float) -> Any:
     """``polygon`` less the walls (W, 4: x0, y0, x1, y1 lines) in its interior."""
-    inner = polygon.buffer(-_DEEP, join_style="mitre")
-    if inner.is_empty or len(walls) == 0:
+    if len(walls) == 0:
         return polygon
     ends = walls.reshape(-1, 2, 2)
-    low, high = np.array(inner.bounds).reshape(2, 2)
-    within = np.minimum(ends.max(axis=1), high) - np.maximum(ends.min(axis=1), low)  # its bounds
+    low, high = np.array(polygon.bounds).reshape(2, 2)
+    within = np.minimum(ends.max(axis=1), high - _DEEP) - np.maximum(ends.min(axis=1), low + _DEEP)
     near = (within.min(axis=1) >= 0) & (within.max(axis=1) > _SHORTEST)
-    if not near.any():
+    if not near.any():  # most rooms, and cheaper than their interior
         return polygon
+    inner = polygon.buffer(-_DEEP, join_style="mitre")
     lines = shapely.linestrings(ends[near])
     inside = shapely.intersection(lines, inner)
     rows = np.flatnonzero(shapely.length(inside) > _SHORTEST)

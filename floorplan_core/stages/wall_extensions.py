@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.raster import edges_of, polygon_window
@@ -43,19 +44,23 @@ class WallExtender:
             if e - s > _SHORTEST and _observed(p, s, e) > _SHORTEST
         ]
         self._walls = np.array(walls, dtype=np.float64).reshape(-1, 4)  # axis, middle, start, end
-        self._crossing = {
-            axis: np.array(
-                [(p.offset, s, e) for p in seen if p.facing.axis == axis for s, e in p.walls]
+        self._faces = tuple(  # offset, start, end of those across x, and of those across y
+            np.array(
+                [(p.offset, s, e) for p in seen if p.facing.axis == axis for s, e in p.walls.tolist()]
             ).reshape(-1, 3)
             for axis in (0, 1)
-        }
+        )
 
     def split(self, polygon: Any) -> list[Any]:
         """The polygon, or the parts in which anything was seen, each split again."""
-        edges = edges_of(polygon)
-        for axis, middle, start, end in self._within(polygon).tolist():
+        walls = self._within(polygon)
+        if not len(walls):
+            return [polygon]
+        edges, grid = edges_of(polygon), self._grid
+        on = _going_on(edges, walls, *self._faces, grid.universe, grid.origin, grid.cell)
+        for axis, middle, start, end in walls[on].tolist():
             cut = self._cut(edges, int(axis), middle, start, end)
-            parts = [] if cut is None else polygons_of(shapely.difference(polygon, cut))
+            parts = polygons_of(shapely.difference(polygon, cut))
             if len(parts) > 1:
                 seen = [part for part in parts if self._free(part) >= _LEAST]
                 if seen and sum(map(self._free, seen)) >= self._free(polygon) - _LEAST:
@@ -73,33 +78,16 @@ class WallExtender:
         return np.asarray(self._walls[inside & (first < end + _INSIDE) & (last > start - _INSIDE)])
 
     def _cut(self, edges: Float, axis: int, middle: float, start: float, end: float) -> Any:
-        """The box along the wall's line to the far sides of the polygon; None where something stops it."""
-        inside = chords(edges, axis, middle)
-        mine = [(a, b) for a, b in inside if b - a > _EXACT and a < end + _INSIDE and b > start - _INSIDE]
-        unseen = [
-            (a, b) for a, b in mine for a, b in ((a, min(b, start)), (max(a, end), b)) if b - a > _EXACT
-        ]
-        if not mine or any(self._stopped(axis, middle, a, b, start, end) for a, b in unseen):
-            return None
+        """The box along the wall's line to the far sides of the polygon."""
         half = self._thickness / 2
-        boxes = [(middle - half, a - _INSIDE, middle + half, b + _INSIDE) for a, b in mine]
+        boxes = [
+            (middle - half, a - _INSIDE, middle + half, b + _INSIDE)
+            for a, b in chords(edges, axis, middle).tolist()
+            if _is_on(a, b, start, end)
+        ]
         return shapely.union_all(
             [shapely.box(*(b if axis == 0 else (b[1], b[0], b[3], b[2]))) for b in boxes]
         )
-
-    def _stopped(self, axis: int, middle: float, low: float, high: float, start: float, end: float) -> bool:
-        """True where another wall meets the end of this one, or free space was seen beyond it."""
-        tip = end if low >= end - _EXACT else start
-        others = self._crossing[1 - axis]
-        meets = (np.abs(others[:, 0] - tip) < _TOUCH) & (others[:, 1] < middle + _TOUCH)
-        if high - low > _INSIDE and (meets & (others[:, 2] > middle - _TOUCH)).any():
-            return True
-        grid = self._grid.universe if axis == 0 else self._grid.universe.T
-        column = int((middle - self._grid.origin[axis]) / self._grid.cell)
-        a, b = ((np.array([low, high]) - self._grid.origin[1 - axis]) / self._grid.cell).round().astype(int)
-        if not 0 <= column < grid.shape[1]:
-            return False
-        return float(np.count_nonzero(grid[max(a, 0) : max(b, 0), column])) * self._grid.cell > _CROSSED
 
     def _free(self, polygon: Any) -> float:
         """m2 of the polygon that were seen free."""
@@ -111,3 +99,54 @@ def _observed(plane: LayoutPlane, start: float, end: float) -> float:
     """Metres of a run that were really seen."""
     common = np.minimum(plane.observed[:, 1], end) - np.maximum(plane.observed[:, 0], start)
     return float(np.maximum(common, 0).sum())
+
+
+@njit(cache=True, nogil=True)
+def _going_on(edges, walls, upright, level, universe, origin, cell):  # type: ignore[no-untyped-def]
+    """(W,) True for the walls (axis, middle, start, end) that go on to the far sides of the polygon."""
+    out = np.zeros(len(walls), dtype=np.bool_)
+    for w in range(len(walls)):
+        axis, middle, start, end = int(walls[w, 0]), walls[w, 1], walls[w, 2], walls[w, 3]
+        across = level if axis == 0 else upright
+        for a, b in chords(edges, axis, middle):
+            if not _is_on(a, b, start, end):
+                continue
+            out[w] = True
+            for low, high in ((a, min(b, start)), (max(a, end), b)):
+                if high - low <= _EXACT:
+                    continue
+                tip = end if low >= end - _EXACT else start
+                free = _free_along(universe, axis, middle, low, high, origin, cell)
+                if (high - low > _INSIDE and _is_met(across, tip, middle)) or free > _CROSSED:
+                    out[w] = False
+                    break
+            if not out[w]:
+                break
+    return out
+
+
+@njit(cache=True, nogil=True)
+def _is_on(a, b, start, end):  # type: ignore[no-untyped-def]
+    """True for a chord of the polygon, from ``a`` to ``b``, on which a wall lies or to which it leads."""
+    return b - a > _EXACT and a < end + _INSIDE and b > start - _INSIDE
+
+
+@njit(cache=True, nogil=True)
+def _is_met(others, tip, middle):  # type: ignore[no-untyped-def]
+    """True where another wall (offset, start, end) meets the end of this one."""
+    for offset, start, end in others:
+        if abs(offset - tip) < _TOUCH and start < middle + _TOUCH and end > middle - _TOUCH:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _free_along(universe, axis, middle, low, high, origin, cell):  # type: ignore[no-untyped-def]
+    """Metres of the line at ``middle`` across ``axis`` that were seen free."""
+    at, along, count = int((middle - origin[axis]) / cell), 1 - axis, 0
+    if not 0 <= at < universe.shape[along]:
+        return 0.0
+    first = max(int(np.rint((low - origin[along]) / cell)), 0)
+    for k in range(first, min(int(np.rint((high - origin[along]) / cell)), universe.shape[axis])):
+        count += universe[k, at] if axis == 0 else universe[at, k]
+    return count * cell
