@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QByteArray, QChildEvent, QPoint, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -46,7 +47,8 @@ NOT_IN_MENUS = (  # they need arguments: for the palette's settings, for panes a
     "view.pane", "view.look", "edit.select", "edit.history", "plan.set", "plan.preset", "measure.set",
 )  # fmt: skip
 MENU_GROUPS = (  # actions that begin a group of their menu
-    "file.save", "file.export", "file.save_recording", "file.close", "edit.delete", "view.layer_points",
+    "file.save", "file.export", "file.save_recording", "file.close", "edit.delete", "edit.preferences",
+    "view.layer_points",
     "view.units", "view.inspect", "plan.reset", "plan.storey", "plan.replay", "tool.measure", "tool.split",
     "correct.accept_door", "correct.relabel", "correct.release", "measure.export", "help.english",
     "help.about",
@@ -64,7 +66,8 @@ class MainWindow(QMainWindow):
         self.workbench, self.unattended = workbench, unattended
         self._settings = settings
         self._fitted = True  # False: the next plan is brought into view
-        self.recent = RecentFiles(settings)
+        workbench.preferences.attach(settings.value, settings.setValue)
+        self.recent = RecentFiles(settings, lambda: workbench.preferences.number("recent"))
         self.actions_by_id = QtActions(workbench, self)
         self.dresser = Dresser(self, self.actions_by_id.retinting)
         self.setObjectName("floorcast")
@@ -89,6 +92,7 @@ class MainWindow(QMainWindow):
         workbench.ui = QtInterface(self)
         workbench.thumbnail = lambda: plan_png(self)
         workbench.view.changed.connect(self._look_changed)
+        workbench.preferences.changed.connect(self._preferred)
         workbench.document.saved_changed.connect(self._retitle)
         workbench.survey_changed.connect(self._survey_changed)
         workbench.plan_changed.connect(self._plan_changed)
@@ -221,11 +225,19 @@ class MainWindow(QMainWindow):
             QTimer.singleShot(0, lambda: self.workbench.plan is not None and self.workbench.run("view.fit"))
 
     def _look_changed(self, before: Look, after: Look) -> None:
+        self.workbench.preferences.set("theme", after.theme)
+        self.workbench.preferences.set("units", after.units)
         if before.theme != after.theme:
             self.dresser.change(after.theme)
         if before.workspace != after.workspace:
             self._keep_arrangement(before.workspace)
             self._arrange(after.workspace)
+
+    def _preferred(self, name: str, value: Any) -> None:
+        if name in ("theme", "units"):
+            self.workbench.view.set(**{name: value})
+        elif name == "recent":
+            self.empty.refresh()
 
     def _arrange(self, workspace: str) -> None:
         kept = self._settings.value(f"workspace/{workspace}")
@@ -337,19 +349,14 @@ class MainWindow(QMainWindow):
         geometry = self._settings.value("window/geometry")
         if isinstance(geometry, QByteArray):
             self.restoreGeometry(geometry)
-        look = self.workbench.view.look
-        self.workbench.view.set(
-            theme=str(self._settings.value("look/theme", look.theme)),
-            units=str(self._settings.value("look/units", look.units)),
-        )
+        preferences = self.workbench.preferences
+        self.workbench.view.set(theme=preferences["theme"], units=preferences["units"])
         self._arrange(self.workbench.view.look.workspace)
 
     def _remember(self) -> None:
         look = self.workbench.view.look
         self._settings.setValue("window/geometry", self.saveGeometry())
         self._keep_arrangement(look.workspace)
-        self._settings.setValue("look/theme", look.theme)
-        self._settings.setValue("look/units", look.units)
 
 
 def _picture_format(path: Path) -> str:

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
     from floorplan_core.project_file import Project
 
-EVERY = 30.0  # s between two calls of :meth:`Recovery.tick`
 FOLDER_VARIABLE = "FLOORCAST_STATE"  # another place for the state folder
 _LOCK, _NOTE = ".lock", ".json"
 
@@ -69,7 +68,7 @@ class Recovery:
         self._writer.hand_over(lambda: self._write(form, note))
 
     def tick(self) -> None:
-        """To be called every :data:`EVERY` seconds: keeps what is no edit, like the view."""
+        """To be called now and then: keeps what is no edit, like the view."""
         if self._view_moved:
             self.keep()
 

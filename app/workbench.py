@@ -19,6 +19,7 @@ from floorcast_app.interface import Interface, NoInterface
 from floorcast_app.item_bounds import bring_into_view
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
+from floorcast_app.preferences import Preferences
 from floorcast_app.run_replay import ShownStorey, Snapshot
 from floorcast_app.saved_look import look_from_dict, look_to_dict
 from floorcast_app.selection import Item, Selection
@@ -45,6 +46,7 @@ class Workbench:
         self.document = Document()
         self.selection = Selection()
         self.view = ViewState()
+        self.preferences = Preferences()
         self.jobs = Jobs(post)
         self.actions: ActionRegistry = all_actions()
         self.ui: Interface = NoInterface()
@@ -127,9 +129,10 @@ class Workbench:
         """Begin a new document with a survey; it is read and planned in a job."""
         self._close_survey()
         state = DocumentState(SurveyRef(Path(path), trajectory))
-        config = state.config.model_copy(
-            update={"input": state.config.input.model_copy(update={"unit": unit, "up": up})}
-        )
+        sections = {"input": state.config.input.model_copy(update={"unit": unit, "up": up})}
+        if memory := self.preferences.number("memory"):
+            sections["voxels"] = state.config.voxels.model_copy(update={"memory": float(memory)})
+        config = state.config.model_copy(update=sections)
         self.project, self.origin, self.names = None, None, ()
         self.document.reset(replace(state, config=config), f"Open {Path(path).name}", saved=False)
 

@@ -5,8 +5,9 @@
 
 Qt's own lupdate does not know that menus, settings, presets and columns are data; this reads them where they
 are declared. Strings: literals given to ``tr``, ``translate`` and the like; texts and tips of actions;
-titles, tips and words in the tables of the panels; settings and presets. Sentences with gaps: f-strings that
-modules without Qt give to ``tell``, ``change``, ``apply``, ``correct``, ``start`` and to errors they raise.
+titles, tips and words in the tables of the panels; settings, preferences, presets. Sentences with gaps:
+f-strings that modules without Qt give to ``tell``, ``change``, ``apply``, ``correct``, ``start`` and to
+errors they raise.
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ EXTRA = (  # words of the core that lists show
     "Room {0}",
     "Corridor {0}",
     "floor to ceiling is then {0} m", "the height is then {0} m",
+    "name {0}", "label {0}", "wall at {0}", "{0}, {1} wide, {2} sure",  # what the machine had said
     "the points are flat, so only their extent could tell",
 )  # fmt: skip
 
@@ -64,7 +66,11 @@ def strings() -> set[str]:
     for name in CORE:
         path = ROOT / "floorplan_core" / name
         found |= set(_sentences_of(ast.parse(path.read_text(encoding="utf-8"))))
-    shown = {s for s in (*found, *_actions(), *_settings(), *_presets()) if re.search(r"[^\W\d_]{2}", s)}
+    shown = {
+        s
+        for s in (*found, *_actions(), *_settings(), *_preferences(), *_presets())
+        if re.search(r"[^\W\d_]{2}", s)
+    }
     return shown | LETTERS
 
 
@@ -168,6 +174,14 @@ def _settings() -> Iterator[str]:
         yield from (stage.title, stage.help)
         for field in stage.fields:
             yield from (field.title, field.help)
+
+
+def _preferences() -> Iterator[str]:
+    from floorcast_app.preferences import PREFERENCES
+
+    for preference in PREFERENCES:
+        yield from (preference.group, preference.title, preference.help, preference.zero)
+        yield from (text for _, text in preference.choices)
 
 
 def _presets() -> Iterator[str]:

@@ -89,6 +89,14 @@ def _delete_plane(workbench: Workbench, item: Item) -> tuple[frozenset[int], lis
     return frozenset(), [HidePlane(plane_at(workbench, plane))]
 
 
+def preferences(workbench: Workbench, name: str | None = None, value: str | int | None = None) -> None:
+    """Show the preferences, or set one of them by name."""
+    if name is None:
+        workbench.ui.show("preferences")
+    else:
+        workbench.preferences.set(name, value)
+
+
 def _deletable(workbench: Workbench) -> bool:
     return any(i.kind in DELETABLE for i in workbench.selection.items)
 
@@ -137,6 +145,14 @@ ACTIONS: tuple[Action, ...] = (
         "Ctrl+Shift+A",
         "square-dashed",
         lambda w: bool(w.selection.items),
+    ),
+    Action(
+        "edit.preferences",
+        "Preferences…",
+        preferences,
+        "Language, theme, units, autosave, recent files and memory.",
+        "Ctrl+,",
+        "settings",
     ),
     Action("edit.select", "Select by name", select, "For scripts: select things by kind and id."),
 )

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSettings
-
-from floorcast_app.translation import LANGUAGES, SETTING, tr
+from floorcast_app.translation import LANGUAGES, tr
 from floorplan_core.errors import UsageError
 
 if TYPE_CHECKING:
@@ -17,6 +15,5 @@ def show(window: MainWindow, language: str) -> None:
     """Remember ``language``; texts that are on the screen already stay until the next start."""
     if language not in LANGUAGES:
         raise UsageError(f"There is no language {language!r}; there are: {', '.join(LANGUAGES)}.")
-    if not window.unattended:
-        QSettings().setValue(SETTING, language)
+    window.workbench.preferences.set("language", language)
     window.tell(tr("{language} from the next start on.").format(language=LANGUAGES[language]))

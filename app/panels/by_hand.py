@@ -33,15 +33,16 @@ def hand_note(thing: Any, words: Callable[[str], str]) -> str:
     return ", ".join(words(WORDS[w]) if w in WORDS else w for w in by_hand(thing))
 
 
-def machine_said(workbench: Workbench, item: Item) -> str:
-    """What the machine had said, in its words; "" where it said nothing."""
+def machine_said(workbench: Workbench, item: Item, words: Callable[[str], str]) -> str:
+    """What the machine had said; "" where it said nothing. ``words`` translates whole sentences, too."""
     plan = workbench.plan
-    return str(plan.machine.get(item.id, "")) if plan is not None else ""
+    said = str(plan.machine.get(item.id, "")) if plan is not None else ""
+    return "; ".join(words(part) for part in said.split("; ")) if said else ""
 
 
 def machine_note(workbench: Workbench, item: Item, words: Callable[[str], str]) -> str:
     """The same as a sentence."""
-    said = machine_said(workbench, item)
+    said = machine_said(workbench, item, words)
     return words("The machine had said: {said}").format(said=said) if said else ""
 
 

@@ -86,7 +86,7 @@ def portrait(workbench: Workbench, item: Item | None, words: Words) -> Portrait 
     if not hand:
         return made
     note = Fact(words("By hand"), hand)
-    said = machine_said(workbench, item)
+    said = machine_said(workbench, item, words)
     facts = (note, Fact(words("Machine had said"), said)) if said else (note,)
     section = Section(words("Correction"), facts)
     return Portrait(

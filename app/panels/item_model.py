@@ -11,7 +11,7 @@ from floorcast_app import icons, theme
 from floorcast_app.panels.by_hand import by_hand, hand_note, is_locked, machine_note
 from floorcast_app.panels.item_columns import COLUMNS, CORRECTION, Column, things
 from floorcast_app.selection import Item
-from floorcast_app.translation import tr
+from floorcast_app.translation import tr, tr_text
 from floorcast_app.workbench import Workbench
 
 Index = QModelIndex | QPersistentModelIndex
@@ -126,7 +126,7 @@ class ItemModel(QAbstractTableModel):
         text = column.text(thing, units, _words)
         if column is not CORRECTION or not text:
             return text
-        machine = machine_note(self._workbench, Item(self.kind, thing.id), tr)
+        machine = machine_note(self._workbench, Item(self.kind, thing.id), tr_text)
         return f"{text}. {machine}" if machine else text
 
     def _first(self, thing: Any, role: int) -> Any:
@@ -137,7 +137,7 @@ class ItemModel(QAbstractTableModel):
             return icons.icon("pin", theme.colours().accent)
         if role == Qt.ItemDataRole.ToolTipRole:
             note = hand_note(thing, tr)
-            machine = machine_note(self._workbench, Item(self.kind, thing.id), tr)
+            machine = machine_note(self._workbench, Item(self.kind, thing.id), tr_text)
             return "\n".join(filter(None, (note, machine)))
         return None
 

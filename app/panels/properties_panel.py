@@ -20,7 +20,7 @@ from floorcast_app import icons, theme
 from floorcast_app.panels.base import GRID, Panel, clear, column, label, scrolling
 from floorcast_app.panels.facts import Fact, Portrait, Section, portrait
 from floorcast_app.panels.item_menu import fitting
-from floorcast_app.translation import tr, tr_action
+from floorcast_app.translation import tr, tr_action, tr_text
 from floorcast_app.workbench import Workbench
 
 MOST_FACTS = 60  # lines: a hall of two hundred sides would stall the window
@@ -43,7 +43,7 @@ class PropertiesPanel(Panel):
     def refresh(self) -> None:
         workbench = self.workbench
         items = workbench.selection.items
-        self.shown = portrait(workbench, workbench.selection.item, tr)
+        self.shown = portrait(workbench, workbench.selection.item, tr_text)
         actions = fitting(workbench, workbench.selection.item)
         now = (self.shown, len(items), [a.id for a in actions], theme.name())
         if now == self._last:

@@ -8,7 +8,8 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QMainWindow
 
 from floorcast_app.panels.banner import Banner, answer
-from floorcast_app.recovery import EVERY, Recoverable, Recovery, discard, recoverable, restore
+from floorcast_app.panels.base import listener_of
+from floorcast_app.recovery import Recoverable, Recovery, discard, recoverable, restore
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import FloorPlanError
@@ -21,9 +22,11 @@ class RecoveryBanner(Banner):
         super().__init__(window, "recovery")
         self._workbench = workbench
         self._recovery = Recovery(workbench)
-        self._ticking = QTimer(self, interval=round(EVERY * 1000))
+        self._ticking = QTimer(self, interval=1000 * workbench.preferences.number("autosave"))
         self._ticking.timeout.connect(self._recovery.tick)
         self._ticking.start()
+        changed = workbench.preferences.changed
+        changed.connect(listener_of(self, self._preferred, changed))
         QTimer.singleShot(0, self, self.offer)
 
     def offer(self) -> None:
@@ -46,6 +49,10 @@ class RecoveryBanner(Banner):
         """The program ends in good order."""
         self._ticking.stop()
         self._recovery.close()
+
+    def _preferred(self, name: str, value: int) -> None:
+        if name == "autosave":
+            self._ticking.setInterval(1000 * value)
 
     def _restore(self, item: Recoverable) -> None:
         self.hide()

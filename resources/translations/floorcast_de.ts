@@ -235,12 +235,24 @@
    <translation>Wie im Artikel</translation>
   </message>
   <message>
+   <source>As it was at first</source>
+   <translation>Wie am Anfang</translation>
+  </message>
+  <message>
+   <source>As the system</source>
+   <translation>Wie das System</translation>
+  </message>
+  <message>
    <source>Auto</source>
    <translation>Auto</translation>
   </message>
   <message>
    <source>Automatic</source>
    <translation>Automatisch</translation>
+  </message>
+  <message>
+   <source>Autosave</source>
+   <translation>Sichern</translation>
   </message>
   <message>
    <source>Back to the plan of all that was measured</source>
@@ -727,6 +739,10 @@
    <translation>Datei</translation>
   </message>
   <message>
+   <source>Files</source>
+   <translation>Dateien</translation>
+  </message>
+  <message>
    <source>Filter</source>
    <translation>Filter</translation>
   </message>
@@ -843,6 +859,10 @@
    <translation>Vom Boden bis zum Sturz</translation>
   </message>
   <message>
+   <source>From the next start on.</source>
+   <translation>Ab dem nächsten Start.</translation>
+  </message>
+  <message>
    <source>From what was measured to the plan that explains it.</source>
    <translation>Vom Gemessenen zum Plan, der es erklärt.</translation>
   </message>
@@ -885,6 +905,10 @@
   <message>
    <source>Guessed sides</source>
    <translation>Geratene Seiten</translation>
+  </message>
+  <message>
+   <source>Half of what is free</source>
+   <translation>Hälfte des freien</translation>
   </message>
   <message>
    <source>Halls and long ranges</source>
@@ -937,6 +961,14 @@
   <message>
    <source>Hit ratio</source>
    <translation>Trefferanteil</translation>
+  </message>
+  <message>
+   <source>How many are offered again; 0 remembers none.</source>
+   <translation>Wie viele wieder angeboten werden; 0 merkt sich keine.</translation>
+  </message>
+  <message>
+   <source>How often the view is kept for the case of a crash; every edit is kept at once.</source>
+   <translation>Wie oft die Ansicht für den Fall eines Absturzes gesichert wird; jede Änderung wird es sofort.</translation>
   </message>
   <message>
    <source>How sure</source>
@@ -1075,6 +1107,14 @@
    <translation>Bezeichnungen</translation>
   </message>
   <message>
+   <source>Language</source>
+   <translation>Sprache</translation>
+  </message>
+  <message>
+   <source>Language, theme, units, autosave, recent files and memory.</source>
+   <translation>Sprache, Farben, Einheiten, Sichern, letzte Dateien und Speicher.</translation>
+  </message>
+  <message>
    <source>Large screen</source>
    <translation>Großer Bildschirm</translation>
   </message>
@@ -1165,6 +1205,10 @@
   <message>
    <source>Licence</source>
    <translation>Lizenz</translation>
+  </message>
+  <message>
+   <source>Light</source>
+   <translation>Hell</translation>
   </message>
   <message>
    <source>Lintel depth</source>
@@ -1301,6 +1345,10 @@
   <message>
    <source>Merged by hand</source>
    <translation>Von Hand vereint</translation>
+  </message>
+  <message>
+   <source>Metres</source>
+   <translation>Meter</translation>
   </message>
   <message>
    <source>Middle or right drag</source>
@@ -1503,12 +1551,20 @@
    <translation>Ihrer Lage</translation>
   </message>
   <message>
+   <source>Of lengths and areas wherever they are shown; files have metres.</source>
+   <translation>Von Längen und Flächen, wo immer sie stehen; Dateien haben Meter.</translation>
+  </message>
+  <message>
    <source>Of the largest floor or ceiling: a smaller one parts no storeys (a gallery).</source>
    <translation>Des größten Bodens oder der größten Decke: Kleinere trennen keine Geschosse (eine Galerie).</translation>
   </message>
   <message>
    <source>Of the measured length</source>
    <translation>Der gemessenen Länge</translation>
+  </message>
+  <message>
+   <source>Of the window; exported drawings stay light.</source>
+   <translation>Des Fensters; exportierte Zeichnungen bleiben hell.</translation>
   </message>
   <message>
    <source>Offset</source>
@@ -1791,6 +1847,14 @@
    <translation>Vorhergesagter Boden</translation>
   </message>
   <message>
+   <source>Preferences</source>
+   <translation>Voreinstellungen</translation>
+  </message>
+  <message>
+   <source>Preferences…</source>
+   <translation>Voreinstellungen…</translation>
+  </message>
+  <message>
    <source>Presets</source>
    <translation>Vorgaben</translation>
   </message>
@@ -1825,6 +1889,10 @@
   <message>
    <source>Recent</source>
    <translation>Zuletzt</translation>
+  </message>
+  <message>
+   <source>Recent files</source>
+   <translation>Letzte Dateien</translation>
   </message>
   <message>
    <source>Recess</source>
@@ -2635,6 +2703,14 @@
    <translation>Die von {0} verschobene Wand ist nicht mehr da.</translation>
   </message>
   <message>
+   <source>The window was closed.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Theme</source>
+   <translation>Farben</translation>
+  </message>
+  <message>
    <source>There is a region {0} already.</source>
    <translation>Es gibt schon eine Region {0}.</translation>
   </message>
@@ -2673,6 +2749,10 @@
   <message>
    <source>There is no plan yet.</source>
    <translation>Es gibt noch keinen Plan.</translation>
+  </message>
+  <message>
+   <source>There is no preference {0}; there are: {1}.</source>
+   <translation>Es gibt keine Voreinstellung {0}; es gibt: {1}.</translation>
   </message>
   <message>
    <source>There is no setting {0}; 'floorcast settings' lists them.</source>
@@ -2859,6 +2939,10 @@
    <translation>Einheit der Koordinaten der Datei; us-ft ist der US-Vermessungsfuß.</translation>
   </message>
   <message>
+   <source>Units</source>
+   <translation>Einheiten</translation>
+  </message>
+  <message>
    <source>Unseen stretches between two seen parts of one wall are wall up to this length.</source>
    <translation>Ungesehene Stücke zwischen zwei gesehenen Teilen einer Wand sind bis zu dieser Länge Wand.</translation>
   </message>
@@ -2985,6 +3069,10 @@
   <message>
    <source>What the map of a survey may take in memory; more goes to temporary files, and the plan stays the same. None: half of what is free.</source>
    <translation>Was die Karte einer Aufnahme im Arbeitsspeicher belegen darf; mehr kommt in temporäre Dateien, und der Plan bleibt derselbe. Keine Angabe: die Hälfte dessen, was frei ist.</translation>
+  </message>
+  <message>
+   <source>What the map of a survey may take, of surveys opened from now on; more goes to temporary files.</source>
+   <translation>Was die Karte einer Aufnahme belegen darf, die ab jetzt geöffnet wird; was darüber ist, kommt in temporäre Dateien.</translation>
   </message>
   <message>
    <source>What the points are coloured by</source>
@@ -3167,6 +3255,10 @@
    <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
   </message>
   <message>
+   <source>label {0}</source>
+   <translation>Art {0}</translation>
+  </message>
+  <message>
    <source>metres</source>
    <translation>Meter</translation>
   </message>
@@ -3177,6 +3269,10 @@
   <message>
    <source>mostly predicted</source>
    <translation>meist vorhergesagt</translation>
+  </message>
+  <message>
+   <source>name {0}</source>
+   <translation>Name {0}</translation>
   </message>
   <message>
    <source>no plan yet</source>
@@ -3263,6 +3359,10 @@
    <translation>Wand</translation>
   </message>
   <message>
+   <source>wall at {0}</source>
+   <translation>Wand bei {0}</translation>
+  </message>
+  <message>
    <source>wall {0}</source>
    <translation>Wand {0}</translation>
   </message>
@@ -3307,6 +3407,10 @@
    <translation>{0} ist gescheitert: {1}: {2}.</translation>
   </message>
   <message>
+   <source>{0} is a whole number, {1}; given {2}.</source>
+   <translation>{0} ist eine ganze Zahl, {1}; gegeben ist {2}.</translation>
+  </message>
+  <message>
    <source>{0} is no length; type one like 3.2, 320 cm or 10' 6".</source>
    <translation>{0} ist keine Länge; möglich ist etwa 3,2 oder 320 cm oder 10' 6".</translation>
   </message>
@@ -3327,6 +3431,10 @@
    <translation>{0} ist nicht mehr, wo es war; bitte sagen, wo es jetzt liegt.</translation>
   </message>
   <message>
+   <source>{0} is one of {1}, not {2}.</source>
+   <translation>{0} ist eins von {1}, nicht {2}.</translation>
+  </message>
+  <message>
    <source>{0} needs a window.</source>
    <translation>{0} braucht ein Fenster.</translation>
   </message>
@@ -3341,6 +3449,10 @@
   <message>
    <source>{0} was not written.</source>
    <translation>{0} wurde nicht geschrieben.</translation>
+  </message>
+  <message>
+   <source>{0}, {1} wide, {2} sure</source>
+   <translation>{0}, {1} breit, {2} sicher</translation>
   </message>
   <message>
    <source>{0}: give it as an argument; there is nobody to ask.</source>

@@ -103,6 +103,9 @@ def test_numbers_have_a_comma_in_german_and_a_point_in_files(german: None, tmp_p
     assert (length(3.2), area(1234.5), count(18204)) == ("3,200 m", "1.234,50 m²", "18.204")
     assert parse_length(length(1234.5)) == parse_length("1.234,500") == 1234.5
     assert translation.tr_text("Measure 3.412 m").endswith("3,412 m messen")
+    assert translation.tr_text("door, 0.914 m wide, 98% sure") == "Tür, 0,914 m breit, 98% sicher"
+    assert translation.tr_text("wall at -3.200 m") == "Wand bei -3,200 m"
+    assert [translation.tr_text(s) for s in ("name 1", "label corridor")] == ["Name 1", "Art Flur"]
     spin = QDoubleSpinBox()
     spin.setValue(2.5)
     assert spin.text() == "2,50"
