@@ -2704,7 +2704,7 @@
   </message>
   <message>
    <source>The window was closed.</source>
-   <translation type="unfinished" />
+   <translation>Das Fenster wurde geschlossen.</translation>
   </message>
   <message>
    <source>Theme</source>
