@@ -43,6 +43,9 @@ ASPECT, RETURNS = 2.4, 0.98  # columns by rows of a turn; share of its rays that
 SEED, YAW = 5, 17.0
 PROJECTED = 10**9
 SURFEL_BYTES = 160  # of memory for each voxel that holds points: in the map, in the plan, in its stages
+LOOK = 0.02  # s between two looks at the memory of a process
+RESIDENT = ("VmRSS", "RssAnon", "RssFile")  # of /proc/self/status
+Float = np.ndarray
 Turn = tuple[np.ndarray, np.ndarray, int]  # (N, 3) points in the station's frame, its pose, its number
 
 
@@ -212,20 +215,24 @@ def run_apart(path: Path, how: str) -> dict[str, float]:
     """:func:`measure` in a process of its own, whose memory is watched with that of its children."""
     command = [sys.executable, "-m", "benchmarks.big", "--one", how, str(path)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:
-        peak = 0.0
+        most = np.zeros(3)
         while child.poll() is None:
-            peak = max(peak, _memory(child.pid))
-            time.sleep(0.02)
+            most = np.maximum(most, _memory(child.pid))
+            time.sleep(LOOK)
         output = child.stdout.read() if child.stdout else ""
     if child.returncode:
         raise SystemExit(child.returncode)
     found: dict[str, float] = json.loads(output.splitlines()[-1])
-    return found | {"peak_mb": peak}
+    return found | dict(zip(("peak_mb", "own_mb", "file_mb"), most.tolist(), strict=True))
 
 
-def _memory(pid: int) -> float:
-    """MB of a process and all below it; that of processes which share pages is counted for each."""
-    total, waiting = 0.0, [pid]
+def _memory(pid: int) -> Float:
+    """MB of a process and all below it: resident, of that its own, and of that pages of files.
+
+    What several processes share is counted for each. Pages of files (libraries, surfels that went to disk)
+    are taken back by the system when it needs them; its own are what a computer must have.
+    """
+    total, waiting = np.zeros(3), [pid]
     while waiting:
         each = waiting.pop()
         try:
@@ -237,7 +244,8 @@ def _memory(pid: int) -> float:
             ]
         except (OSError, ValueError):
             continue
-        total += int(status.partition("VmRSS:")[2].split()[0]) / 1024 if "VmRSS:" in status else 0.0
+        if "VmRSS:" in status:  # a process that just ended has none
+            total += [int(status.partition(f"{name}:")[2].split()[0]) / 1024 for name in RESIDENT]
     return total
 
 
@@ -271,6 +279,7 @@ def figures(found: dict[str, Any], count: int) -> dict[str, float]:
         for how in ("plain", "plan"):
             name = f"{kind} {points / 1e6:g} M, {how}"
             out[f"{name}: s CPU"], out[f"{name}: most MB"] = at[how]["cpu"], at[how]["peak_mb"]
+            out[f"{name}: s wall"], out[f"{name}: own MB"] = at[how]["seconds"], at[how]["own_mb"]
     return out
 
 
@@ -319,7 +328,7 @@ def report(found: dict[str, Any], count: int, area: float) -> Iterator[str]:
             yield (
                 f"{found['format']:<5}{points:8.1f} M {at['mb']:7.0f} MB  {how:<6}{m['seconds']:8.1f} s wall "
                 f"{m['cpu']:8.1f} s CPU {at['mb'] / m['seconds']:6.0f} MB/s {points / m['seconds']:7.2f} M "
-                f"points/s {m['peak_mb']:7.0f} MB"
+                f"points/s {m['peak_mb']:7.0f} MB, its own {m['own_mb']:5.0f}"
             )
     yield f"      {large['worth']}"
     millions = (large["points"] - small["points"]) / 1e6

@@ -39,6 +39,13 @@ from floorplan_core.api import (
 
 RGB = ("red", "green", "blue")
 NOISE = (7, 18)  # ASPRS classes: low point, high noise
+LAYERS = {
+    "classification": "CLASSIFICATION",
+    "withheld": "FLAGS",
+    "intensity": "INTENSITY",
+    "gps_time": "GPS_TIME",
+    "red": "RGB",
+}
 CHUNK_BYTES = 64 << 20  # of records: wide ones come in smaller chunks
 SAMPLE_BLOCKS = 128  # of LAS
 LAZ_PIECE = 100_000  # points: decoding holds the interpreter lock, 0.3 to 0.7 s for a whole chunk of ours
@@ -97,11 +104,22 @@ def las_source(path: Path, observer: Observer) -> PointSource:
     )
 
 
-def _opened(path: Path) -> Any:
-    """laspy's reader; what it raises over the header is one sentence."""
+def _opened(path: Path, names: tuple[str, ...] | None = None) -> Any:
+    """laspy's reader of those dimensions; what it raises over the header is one sentence."""
     laspy = import_library("laspy", "laspy[lazrs]", "LAS and LAZ")
     with damaged(path.name, "LAS file"):
-        return laspy.open(path, read_evlrs=False)
+        return laspy.open(path, read_evlrs=False, decompression_selection=_used(laspy, names))
+
+
+def _used(laspy: Any, names: tuple[str, ...] | None) -> Any:
+    """The layers of the records (LAZ 1.4) that have to be unpacked; other files are read whole anyway."""
+    layers = laspy.DecompressionSelection
+    if names is None or find_name(names, SCAN_ID_NAMES) is not None:  # a scan id may be in any of them
+        return layers.all()
+    wanted = layers.base() | layers.Z
+    for name in set(LAYERS).intersection(names):
+        wanted |= layers[LAYERS[name]]
+    return wanted
 
 
 def _counted_chunks(
@@ -123,7 +141,7 @@ def _counted_chunks(
 def _chunks(path: Path, head: LasHead, names: tuple[str, ...]) -> Iterator[tuple[RawChunk, int]]:
     """Points, and how many were noise, a chunk at a time."""
     size = _chunk_size(head)
-    with _opened(path) as file:
+    with _opened(path, names) as file:
         left = head.count
         while left > 0:
             wanted = min(size, left)
@@ -158,14 +176,14 @@ def _chunk_size(head: LasHead) -> int:
 
 def _points(records: Any, names: tuple[str, ...]) -> tuple[RawChunk, int]:
     """Coordinates, scan ids and GPS times of those records that are no noise."""
-    bad = np.isin(np.asarray(records.classification), NOISE)
+    from floorcast_plugins._las_points import scaled  # a kernel: only for files that need it
+
+    classes = np.asarray(records.classification)
+    bad = np.logical_or.reduce([classes == noise for noise in NOISE])
     if "withheld" in names:
         bad |= np.asarray(records.withheld).astype(bool)
     raw = records.array if not bad.any() else records.array[~bad]
-    points = np.empty((len(raw), 3))
-    with np.errstate(over="ignore", invalid="ignore"):
-        for axis, name in enumerate("XYZ"):
-            points[:, axis] = raw[name] * records.scales[axis] + records.offsets[axis]
+    points = scaled(raw, records.scales, records.offsets)
     scan = find_name(names, SCAN_ID_NAMES)
     ids = None if scan is None else as_scan_id(np.asarray(records[scan])[~bad])
     stamps = raw["gps_time"].astype(np.float64) if "gps_time" in names else None

@@ -71,13 +71,11 @@ def time_tolerance(rows: Float) -> float:
 
 def nearest_rows(stamps: Float, rows: Float, tolerance: float) -> NDArray[np.int32]:
     """(N,) row of ``rows`` (rising) nearest to each stamp, the earlier of two; -1 beyond the tolerance."""
-    after = np.clip(np.searchsorted(rows, stamps), 1, max(len(rows) - 1, 1))
-    before = after - 1
-    after = np.minimum(after, len(rows) - 1)
-    with np.errstate(invalid="ignore"):
-        nearer = np.where(np.abs(rows[after] - stamps) < np.abs(stamps - rows[before]), after, before)
-        close = np.abs(rows[nearer] - stamps) <= tolerance
-    return np.where(close, nearer, -1).astype(np.int32)
+    from floorplan_core.geometry.nearest_rows import nearest  # a kernel: only for files that need it
+
+    return nearest(
+        np.ascontiguousarray(stamps, dtype=np.float64), np.ascontiguousarray(rows), float(tolerance)
+    )
 
 
 class _Join:

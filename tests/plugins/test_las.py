@@ -209,3 +209,27 @@ def test_without_the_library(tmp_path, cloud, monkeypatch):
     path = write_las(tmp_path / "a.las", cloud)
     monkeypatch.setitem(sys.modules, "laspy", None)
     assert "pip install 'laspy[lazrs]'" in refusal(path)
+
+
+def test_only_the_layers_in_use_are_unpacked_and_all_of_those(tmp_path, cloud):
+    rng, n = np.random.default_rng(9), len(cloud)
+    columns = {
+        "gps_time": np.sort(rng.uniform(0, 9, n)),
+        "intensity": rng.integers(0, 60_000, n),
+        "classification": rng.choice([1, 2, 6, 7, 18], n),
+        "withheld": rng.integers(0, 2, n),
+        **{name: rng.integers(0, 60_000, n) for name in ("red", "green", "blue")},
+        "user_data": rng.integers(0, 250, n),
+        "scan_angle": rng.integers(-9000, 9000, n),
+    }
+    chunks = []
+    for name in ("a.las", "a.laz"):
+        path = write_las(tmp_path / name, cloud, point_format=7, **columns)
+        chunks.append(next(iter(opened(path).chunks())))
+    plain, packed = chunks
+    kept = ~np.isin(columns["classification"], (7, 18)) & (columns["withheld"] == 0)
+    assert len(packed.points) == np.count_nonzero(kept)
+    for field in ("points", "stamps", "rgb", "intensity"):
+        np.testing.assert_array_equal(getattr(packed, field), getattr(plain, field))
+    np.testing.assert_array_equal(packed.stamps, columns["gps_time"][kept])
+    np.testing.assert_array_equal(packed.intensity, columns["intensity"][kept])
