@@ -28,6 +28,7 @@ class CellNormals:
     normal: Float  # (C, 3) unit vectors; the sign is arbitrary
     weight: Float  # (C,) surfels
     cell_of: NDArray[np.int32]  # (N,) planar cell of each surfel, -1 where none
+    share: float  # of the surfels in cells with enough of them, that in the planar ones
 
 
 def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int = 20_000) -> CellNormals:
@@ -51,7 +52,8 @@ def fit_cell_normals(centroid: Float, cell: float, planarity: float, most: int =
 
     in_halves(part, len(cov), worth=_WORTH)
     thin = np.sqrt(np.maximum(values[:, 0], 0)) < planarity * 2 * np.sqrt(np.maximum(values[:, 1], 1e-12))
-    return CellNormals(mean[thin], vectors[thin, :, 0], count[thin], _kept(cell_of, thin))
+    share = float(count[thin].sum() / max(count.sum(), 1.0))
+    return CellNormals(mean[thin], vectors[thin, :, 0], count[thin], _kept(cell_of, thin), share)
 
 
 def _kept(cell_of: NDArray[np.int32], chosen: NDArray[np.bool_]) -> NDArray[np.int32]:

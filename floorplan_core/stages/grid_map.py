@@ -23,6 +23,7 @@ from floorplan_core.geometry.borders import find_borders, simplified, smallest_b
 from floorplan_core.geometry.masks import measure_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, GridMap, ManhattanFrame, OccupancyGrid
 from floorplan_core.stages import manhattan_frame as frames
+from floorplan_core.stages.sharpest_yaw import scores, wrap
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
@@ -82,10 +83,10 @@ def _yaw(free: Bool, cell: float, config: FrameConfig) -> tuple[float, float, fl
     if len(edges) == 0:
         return 0.0, 0.0, metres
     if config.yaw_deg is not None:
-        yaw = float(frames._wrap(math.radians(config.yaw_deg)))
+        yaw = float(wrap(math.radians(config.yaw_deg)))
     else:
         yaw = _sharpened(rings, frames.strongest_direction(angle, length), config)
-    near = np.abs(frames._wrap(angle - yaw)) < math.radians(config.tolerance_deg)
+    near = np.abs(wrap(angle - yaw)) < math.radians(config.tolerance_deg)
     return (0.0 if abs(yaw) < _EXACT else yaw), float(length[near].sum() / length.sum()), metres
 
 
@@ -105,7 +106,7 @@ def _sharpened(borders: Sequence[NDArray[np.int32]], coarse: float, config: Fram
     # The direction of a boundary at a cell: from some cells before it to some after.
     along = np.concatenate([np.roll(r, -_BESIDE, axis=0) - np.roll(r, _BESIDE, axis=0) for r in rings])
     angle = np.arctan2(along[:, 1], along[:, 0]) - coarse
-    off = frames._wrap(angle)
+    off = wrap(angle)
     normal = 1 - np.round((angle - off) / (math.pi / 2)).astype(np.int64) % 2
     near = np.abs(off) < _NEAR_AXIS
     xy, normal = xy[near] - xy.mean(axis=0), normal[near]
@@ -115,8 +116,8 @@ def _sharpened(borders: Sequence[NDArray[np.int32]], coarse: float, config: Fram
     for span, pace in ((_SEARCH, 2 * fine), (4 * fine, fine / 2)):
         trial = yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace
         # bins of one cell: finer ones would only see the raster
-        yaw = float(trial[int(np.argmax(frames._scores(xy, normal, trial, 1.0)))])
-    return float(frames._wrap(yaw))
+        yaw = float(trial[int(np.argmax(scores(xy, normal, trial, 1.0)))])
+    return float(wrap(yaw))
 
 
 def _turned(grid_map: GridMap, yaw: float) -> OccupancyGrid:

@@ -4,38 +4,31 @@ In: surfels of the whole survey. Out: a :class:`ManhattanFrame`. Gravity is the 
 patches. Yaw starts at the strongest direction of the vertical patches modulo 90 degrees; because normals from
 neighbourhoods that reach through a thin wall are biased (a yaw 1.6 degrees off ruins everything), it is then
 refined on the surfels themselves: the yaw under which the walls, projected along their own direction, are
-sharpest. Cost: one pass over the surfels, plus the search on a bounded sample.
+sharpest (:mod:`~floorplan_core.stages.sharpest_yaw`), near the normals' answer unless walls are clearly
+sharper elsewhere. Cost: one pass over the surfels, plus the search on a bounded sample.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, TypeVar
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.config import FrameConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
-from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.level_frame import rotation_to_z
 from floorplan_core.geometry.surfel_map import Surfels
 from floorplan_core.model import ManhattanFrame
+from floorplan_core.stages.sharpest_yaw import rough_yaw, sharpest_yaw, wrap
 
 Float = NDArray[np.float64]
-Angle = TypeVar("Angle", float, NDArray[np.float64])  # radians
 
 _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
-_SEARCH = math.radians(3)  # normals are right to this; the search for sharp walls covers it
-_OFFSET_BIN = 0.02  # m, of the projection that is to be sharp
-_SAMPLE = 30_000  # surfels that the search looks at
-_WORTH = 200_000  # surfels, over all yaws, from which a second thread tries half of them
-_TOP = 8  # steps to both sides of the sharpest yaw through which a parabola is laid
-_BLOCK = 0.25  # m, side of the blocks that are sampled
-_PRIMES = np.array([73_856_093, 19_349_663, 83_492_791])  # Teschner et al. 2003, hashing of space
+_PLANAR = 0.4  # of the surfels in patches that are planar: 0.5 to 0.8 where noise is thinner than patches
+_WIDER, _MORE = 2.0, 1.5  # times the usual patch; times as many surfels as it explains: for clutter less
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
@@ -46,7 +39,7 @@ _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     """The rotation after which walls lie along x and y; raises :class:`NoPlanError` where there is none."""
-    normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    normals = _patches(surfels, config)
     up = _gravity(normals)
     level = rotation_to_z(up)
     n = normals.normal @ level.T
@@ -57,12 +50,12 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     angle = np.arctan2(n[vertical, 1], n[vertical, 0])
     weight = normals.weight[vertical]
     if config.yaw_deg is not None:
-        yaw = _wrap(math.radians(config.yaw_deg))
+        yaw = wrap(math.radians(config.yaw_deg))
     else:
-        coarse = strongest_direction(angle, weight)
-        yaw = _sharpest_yaw(surfels, normals, vertical, level, coarse, config)
+        coarse = rough_yaw(surfels, normals, level, strongest_direction(angle, weight))
+        yaw = sharpest_yaw(surfels, normals, vertical, level, coarse, config)
     support = float(
-        weight[np.abs(_wrap(angle - yaw)) < math.radians(config.tolerance_deg)].sum() / weight.sum()
+        weight[np.abs(wrap(angle - yaw)) < math.radians(config.tolerance_deg)].sum() / weight.sum()
     )
     if support < config.min_support:
         raise NoPlanError(
@@ -78,6 +71,15 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling, askew)
 
 
+def _patches(surfels: Surfels, config: FrameConfig) -> CellNormals:
+    """The planar patches; wider ones where noise is so thick that few of the usual width are planar."""
+    usual = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    if usual.share > _PLANAR:
+        return usual
+    wider = fit_cell_normals(surfels.centroid, _WIDER * config.cell, config.planarity)
+    return wider if wider.share > _MORE * usual.share else usual
+
+
 def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) -> ManhattanFrame:
     """``frame`` for points that ``turn`` (3, 3) takes into those that it was estimated on.
 
@@ -86,7 +88,7 @@ def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) 
     """
     rotation = frame.rotation @ turn
     heading = math.atan2(rotation[0, 1], rotation[0, 0])
-    yaw = float(_wrap(heading if yaw_deg is None else math.radians(yaw_deg)))
+    yaw = float(wrap(heading if yaw_deg is None else math.radians(yaw_deg)))
     if yaw_deg is None:
         quarters = round((heading - yaw) / (math.pi / 2)) % 4
         c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
@@ -112,11 +114,11 @@ def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig
 
 def _other(angle: Float, weight: Float, config: FrameConfig) -> tuple[float, float]:
     """The same from the angles of walls to an axis of the frame."""
-    askew = np.abs(_wrap(angle)) > _ASKEW
+    askew = np.abs(wrap(angle)) > _ASKEW
     if not weight[askew].sum() > 0:
         return 0.0, 0.0
     peak = strongest_direction(angle[askew], weight[askew])
-    near = askew & (np.abs(_wrap(angle - peak)) < math.radians(config.tolerance_deg))
+    near = askew & (np.abs(wrap(angle - peak)) < math.radians(config.tolerance_deg))
     return peak, float(weight[near].sum() / weight.sum())
 
 
@@ -124,7 +126,7 @@ def refined_direction(surfels: Surfels, coarse: float, config: FrameConfig) -> f
     """The yaw, radians, near ``coarse`` under which walls of ``surfels`` in a level frame are sharpest."""
     normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
     vertical = np.abs(normals.normal[:, 2]) < math.sin(math.radians(15))
-    return _sharpest_yaw(surfels, normals, vertical, np.eye(3), coarse, config)
+    return sharpest_yaw(surfels, normals, vertical, np.eye(3), coarse, config)
 
 
 def _no_walls(area: float, voxels: int, height: float) -> str:
@@ -183,110 +185,19 @@ def turned_by(angle: float) -> Float:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _wrap(angle: Angle) -> Angle:
-    """Angles modulo 90 degrees, in (-45, 45]."""
-    quarter = math.pi / 2
-    return -((-angle + quarter / 2) % quarter - quarter / 2)
-
-
 def strongest_direction(angle: Float, weight: Float) -> float:
     """The peak of the directions modulo 90 degrees, smoothed over 2 degrees, then their mean within 4."""
-    degrees = np.rad2deg(_wrap(angle))
+    degrees = np.rad2deg(wrap(angle))
     hist, _ = np.histogram(degrees, bins=180, range=(-45, 45), weights=weight)
     kernel = np.exp(-0.5 * (np.arange(-8, 9) / 3.0) ** 2)
     smooth = np.convolve(np.concatenate([hist[-8:], hist, hist[:8]]), kernel, mode="valid")
     peak = math.radians(-45 + 0.5 * (int(np.argmax(smooth)) + 0.5))
     for _ in range(3):
-        delta = _wrap(angle - peak)
+        delta = wrap(angle - peak)
         near = np.abs(delta) < math.radians(4)
         if near.any():
             peak += float(np.average(delta[near], weights=weight[near]))
-    return float(_wrap(peak))
-
-
-def _sharpest_yaw(
-    surfels: Surfels,
-    normals: CellNormals,
-    vertical: NDArray[np.bool_],
-    level: Float,
-    coarse: float,
-    config: FrameConfig,
-) -> float:
-    """The yaw around ``coarse`` that concentrates the walls' offsets most."""
-    n = normals.normal[vertical] @ level.T
-    off = _wrap(np.arctan2(n[:, 1], n[:, 0]) - coarse)
-    axis_of = np.full(len(normals.weight), -1, dtype=np.int8)
-    quarter = np.round((np.arctan2(n[:, 1], n[:, 0]) - coarse - off) / (math.pi / 2)).astype(int) % 2
-    axis_of[vertical] = np.where(np.abs(off) < math.radians(10), quarter, -1)
-    usable = np.flatnonzero(normals.cell_of >= 0)
-    axis = axis_of[normals.cell_of[usable]]
-    usable, axis = usable[axis >= 0], axis[axis >= 0]
-    if len(usable) == 0:
-        return coarse
-    chosen = _spread_sample(surfels.centroid[usable], max(1, len(usable) // _SAMPLE))
-    points, axis = surfels.centroid[usable[chosen]] @ level.T, axis[chosen]
-    points = points[:, :2] - points[:, :2].mean(axis=0)
-    yaw = coarse
-    fine = math.radians(config.yaw_step_deg)
-    for span, pace in ((_SEARCH, 4 * fine), (8 * fine, fine), (2 * fine, fine / 10)):
-        trial = np.asarray(
-            yaw + np.arange(-round(span / pace), round(span / pace) + 1) * pace, dtype=np.float64
-        )
-        score = _scores(points, axis, trial, _OFFSET_BIN)
-        yaw = float(trial[int(np.argmax(score))])
-    return float(_wrap(_summit(trial, score)))
-
-
-def _scores(points: Float, axis: NDArray[Any], yaws: NDArray[Any], width: float) -> Float:
-    """How sharp the walls are under each yaw; two threads that try half of them each."""
-    score = np.zeros(len(yaws))
-
-    def part(start: int, stop: int) -> None:
-        _sharpness(points, axis, yaws[start:stop], width, score[start:stop])
-
-    in_halves(part, len(yaws), worth=max(2, _WORTH // max(len(points), 1)))
-    return score
-
-
-def _summit(x: Float, score: Float) -> float:
-    """Where a parabola through the scores around the highest has its top: between the steps, and steady."""
-    best = int(np.argmax(score))
-    near = slice(max(0, best - _TOP), best + _TOP + 1)
-    step = float(x[1] - x[0])
-    a, b, _ = np.polyfit((x[near] - x[best]) / step, score[near] / score[best], 2)
-    offset = -b / (2 * a) if a < 0 else 0.0
-    return float(x[best] + step * np.clip(offset, -_TOP, _TOP))
-
-
-def _spread_sample(points: Float, every: int) -> NDArray[np.bool_]:
-    """(N,) one in ``every`` blocks of points, by a hash of its place: a few points more change little."""
-    if every == 1:
-        return np.ones(len(points), dtype=bool)
-    block = np.floor(points / _BLOCK).astype(np.int64)
-    mixed = (block * _PRIMES).sum(axis=1)
-    return np.asarray((mixed ^ (mixed >> 15)) % every == 0)
-
-
-@njit(cache=True, nogil=True)
-def _sharpness(points, axis, yaws, width, score):  # type: ignore[no-untyped-def]
-    """Sum of squares of the histogram of offsets, linearly shared between bins so that it varies smoothly."""
-    reach = 0.0
-    for i in range(len(points)):
-        reach = max(reach, abs(points[i, 0]) + abs(points[i, 1]))
-    half = int(reach / width) + 2
-    hist = np.empty((2, 2 * half + 2))
-    for k in range(len(yaws)):
-        hist[:] = 0.0
-        c, s = np.cos(yaws[k]), np.sin(yaws[k])
-        for i in range(len(points)):
-            x, y = points[i, 0], points[i, 1]
-            u = (c * x + s * y if axis[i] == 0 else c * y - s * x) / width + half
-            b = int(u)
-            hist[axis[i], b] += 1.0 - (u - b)
-            hist[axis[i], b + 1] += u - b
-        for a in range(2):
-            for b in range(hist.shape[1]):
-                score[k] += hist[a, b] * hist[a, b]
+    return float(wrap(peak))
 
 
 def floor_and_ceiling(surfels: Surfels, normals: CellNormals, rotation: Float) -> tuple[float, float | None]:

@@ -61,6 +61,17 @@ def test_yaws_at_the_ends_of_the_range(building, yaw):
     assert -math.pi / 4 - 1e-9 <= frame.yaw <= math.pi / 4 + 1e-9
 
 
+@pytest.mark.parametrize("noise", [0.03, 0.04])
+@pytest.mark.parametrize("yaw", [-20, -7, 10, 20, 30])
+def test_noise_as_thick_as_a_patch_is_wide(building, noise, yaw):
+    """Hardly a patch of the usual width is planar then, but those that the cells cut askew."""
+    noisy = building + np.random.default_rng(6).normal(0, noise, building.shape)
+    turned = rotation(yaw)
+    frame = _frame(noisy @ turned.T)
+    assert _error(frame, turned)[0] <= 0.1
+    assert frame.support > 0.7
+
+
 @pytest.mark.parametrize(("roll", "pitch"), [(15, 0), (0, -15), (10.6, 10.6)])
 def test_a_tilt_of_fifteen_degrees(building, roll, pitch):
     turned = rotation(31, roll, pitch)
