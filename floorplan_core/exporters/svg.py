@@ -54,12 +54,12 @@ def svg_text(plan: FloorPlan) -> str:
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
     _draw_rooms(canvas, sheet, plan)
     swept = _swept(sheet, swung)
-    labels = place_labels(sheet, plan, swept)
+    openings = [sheet.geometry(o.polygon) for o in walls.openings]
+    labels = place_labels(sheet, plan, [*swept, *openings])
     text = label_ground(labels)
     _draw_predicted(canvas, sheet, plan, text)
     _draw_walls(canvas, sheet, walls)
     _draw_doors(canvas, sheet, walls, swung)
-    openings = [sheet.geometry(o.polygon) for o in walls.openings]
     draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]))
     with canvas.group(id="annotation", fill=palette.INK):
         draw_labels(canvas, labels)

@@ -21,7 +21,7 @@ CAP = 0.72  # height of capitals over font size
 
 
 def place_labels(sheet: Sheet, plan: FloorPlan, swept: Sequence[Any]) -> list[Placed]:
-    """A label for each region; ``swept`` are polygons on the page that text keeps off."""
+    """A label for each region; ``swept`` are polygons on the page, doors and their swing: text keeps off."""
     return [_place(region, sheet.geometry(region.polygon), swept) for region in plan.regions]
 
 
@@ -70,7 +70,10 @@ def _place(region: Region, floor: Any, swept: Sequence[Any]) -> Placed:
     free = _largest(floor.difference(shapely.union_all(near))) if near else floor
     placed = place(label_lines(region), free, PAD, floor)
     if not placed.fits and region.name.isdigit():
-        placed = place((Line(region.name, NAME, "name"),), floor, PAD / 2)
+        number = (Line(region.name, NAME, "name"),)
+        placed = place(number, free, PAD / 2, floor)
+        if not placed.fits:
+            placed = place(number, floor, PAD / 2)
     return placed
 
 

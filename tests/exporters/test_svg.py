@@ -221,3 +221,12 @@ def test_touching_regions_get_a_wall_between_them() -> None:
     walls = poche(plan)
     assert walls.observed.contains(shapely.Point(4.0, 3.0))
     assert not walls.observed.intersects(shapely.Point(4.0, 1.5))  # the door
+
+
+def test_text_has_whole_sizes_for_viewers_that_cut_off_the_rest() -> None:
+    """QtSvg takes 1.9 for 1: text is written large and scaled down to its millimetres."""
+    for element in parse(office()).iter(f"{NS}text"):
+        size, place = float(element.get("font-size", "0")), element.get("transform", "")
+        scale = re.search(r"scale\(([\d.]+)\)", place)
+        assert scale is not None and size >= 20
+        assert 1.0 < size * float(scale[1]) < 5.0  # mm
