@@ -75,8 +75,11 @@ def yaw_error(yaw: float | None, truth: Truth) -> float | None:
 def in_rooms(
     measured: tuple[MeasuredDimension, ...], truth: Truth, classes: tuple[Exposure, ...]
 ) -> tuple[MeasuredDimension, ...]:
-    """The dimensions whose middle lies in a room of the given classes."""
+    """The dimensions whose middle lies in a room of the given classes; all, where the truth has no rooms."""
     import shapely
+
+    if not truth.rooms:
+        return measured
 
     area = shapely.union_all([r.polygon for r in truth.rooms if r.exposure in classes])
     shapely.prepare(area)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from statistics import median
 from typing import Any
 
 from floorplan_core.evaluation.dimensions import DimensionScores, MeasuredDimension
 from floorplan_core.evaluation.doors import DoorScores
 from floorplan_core.evaluation.free_space import FreeSpaceScores
 from floorplan_core.evaluation.rooms import RoomMatch, RoomScores
+from floorplan_core.evaluation.voxel_corridor import CORRIDOR_LENGTH, CORRIDOR_WIDTH
 
 Row = tuple[str, str, str]  # what, value, remark
 
@@ -50,6 +52,7 @@ class EvaluationReport:
             *_dimension_rows(
                 "Dimensions, glimpsed rooms included", _if_other(self.dimensions_all, self.dimensions)
             ),
+            *_corridor_rows(self.measured),
             *_room_rows("Rooms", self.rooms),
             *_room_rows("Rooms entered", _if_other(self.rooms_entered, self.rooms)),
             *_room_rows("Rooms glimpsed", self.rooms_glimpsed),
@@ -111,6 +114,17 @@ def _dimension_rows(title: str, scores: DimensionScores | None) -> list[Row]:
         (f"{title}: median error", f"{scores.median_m:.3f} m ({scores.median_percent:.2f} %)", ""),
         (f"{title}: largest error", f"{scores.max_m:.3f} m ({scores.max_percent:.2f} %)", scores.worst),
     ]
+
+
+def _corridor_rows(measured: tuple[MeasuredDimension, ...]) -> list[Row]:
+    """The corridor that was measured in voxels: its length, and the median of its widths."""
+    rows = []
+    for title, start in (("Corridor: length", CORRIDOR_LENGTH), ("Corridor: width, median", CORRIDOR_WIDTH)):
+        found = [(m.plan, m.truth) for m in measured if m.plan is not None and m.id.startswith(start)]
+        if found:
+            plan, truth = (median(values) for values in zip(*found, strict=True))
+            rows.append((title, f"{plan:.2f} m", f"truth {truth:.2f} m"))
+    return rows
 
 
 def _room_rows(title: str, scores: RoomScores | None) -> list[Row]:

@@ -67,10 +67,32 @@ def _mark_corners(points, keep):  # type: ignore[no-untyped-def]
 def move_sides(ring: Float, targets: Callable[[Float], Float]) -> Float:
     """(N, 2) corners of a ring with every side moved across its own direction.
 
+    Where the ring would cross itself, sides that would change places with their next but one stay.
+
     :param targets: of the (N, 2) corners, the (N,) offsets to which the sides that begin there are moved.
     """
     points = corners(ring)
-    return np.asarray(_moved(points, targets(points))) if len(points) else points
+    if len(points) == 0:
+        return points
+    offsets = targets(points)
+    out = np.asarray(_moved(points, offsets))
+    return out if shapely.Polygon(out).is_valid else _moved_uncrossed(points, offsets)
+
+
+def _moved_uncrossed(points: Float, offsets: Float) -> Float:
+    """The corners with those sides left where they are that would turn the side between them round."""
+    following = np.roll(np.arange(len(points)), -1)
+    across = (np.abs(points[:, 0] - points[following, 0]) >= _SAME).astype(np.int64)
+    before = points[np.arange(len(points)), across]
+    while True:
+        out = np.asarray(_moved(points, offsets))
+        if shapely.Polygon(out).is_valid:
+            return out
+        turned = ((out[following] - out) * (points[following] - points)).sum(axis=1) < 0
+        beside = np.roll(turned, 1) | np.roll(turned, -1)
+        if not (beside & (offsets != before)).any():
+            return points
+        offsets = np.where(beside, before, offsets)
 
 
 @njit(cache=True, nogil=True)

@@ -29,7 +29,9 @@ _ABREAST = 0.25  # m between two planes of one wall: recesses, and voxels of 0.1
 _LONG, _BUILT = 6.0, 0.5  # m of a line, and the share of it seen as wall, from which it is one wall
 _BODY, _FREE = (0.4, 1.8), 0.5  # m above the floor at which a passage is free, share of it that must be
 _SKIN = 0.1  # m of free space before and behind a wall that a passage must reach
-_NARROWEST = 0.25  # m of straight passage: where a door was seen at a slant, little of it is straight
+_NARROWEST = (
+    0.15  # m of straight passage, two cells: where a door was seen at a slant, little of it is straight
+)
 _CORNER = 1.8  # m between the end of a line and the wall across at which it ends: a door beside the corner
 _STANDS = 0.12  # of the height below 2 m, seen: wall
 _JAMB = 0.5  # m of hidden wall at most that a passage seen at a slant is widened by, on either side

@@ -161,3 +161,7 @@ def test_octomap_truth():
     assert observed.free.sum() * 0.08**2 > 150
     assert observed.wall.sum() > 1000
     assert not (observed.wall & observed.free).any()
+    length, *widths = result.dimensions
+    assert length.id == "corridor-length"
+    assert length.metres == pytest.approx(34.3, abs=0.1)
+    assert np.median([w.metres for w in widths]) == pytest.approx(2.56, abs=0.09)

@@ -69,6 +69,30 @@ def test_moved_rings_stay_rectilinear_and_each_side_lies_where_it_was_sent(shift
         assert moved[k][across] == moved[(k + 1) % 6][across] == wanted[k]
 
 
+def test_a_ring_does_not_cross_itself_when_sides_of_an_arm_change_places():
+    arm = shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 2, 7, 2.2)])
+    sent = {2.0: 2.3, 2.2: 1.9, 4.0: 4.1}  # the sides of the arm past each other; the top a little up
+
+    def targets(points):
+        return np.array([sent.get(round(v, 6), v) for v in _offsets(points).tolist()])
+
+    moved = map_polygon(arm, lambda ring: move_sides(ring, targets))
+    kept = shapely.union_all([shapely.box(0, 0, 4.1, 4.1), shapely.box(4.1, 2, 7, 2.2)])
+    assert moved.is_valid
+    assert _same(moved, kept)
+
+
+def test_a_ring_whose_other_sides_may_pass_each_other_is_moved_all_the_same():
+    jog = shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 0, 8, 4.02)])
+    sent = {4.02: 3.98}
+
+    def targets(points):
+        return np.array([sent.get(round(v, 6), v) for v in _offsets(points).tolist()])
+
+    moved = map_polygon(jog, lambda ring: move_sides(ring, targets))
+    assert _same(moved, shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 0, 8, 3.98)]))
+
+
 def test_rings_are_moved_with_the_inside_at_their_left():
     room = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 3, 3))
     turns = []

@@ -45,6 +45,14 @@ def test_a_door_is_where_free_space_passes() -> None:
     assert door.evidence == ("passage",)
 
 
+def test_a_door_seen_at_a_slant_is_one_though_little_of_it_is_straight() -> None:
+    """Two cells pass straight through; one is a ray beside something."""
+    slant, ray = ((6.5, 2.9, 6.5 + width, 5.0) for width in (0.2, 0.1))
+    (door,) = line_doors([WALL], (), drawn([CORRIDOR, slant], [WALL], viewpoints=False), CONFIG)
+    assert door.start < 6.5 and door.end > 6.7
+    assert not line_doors([WALL], (), drawn([CORRIDOR, ray], [WALL], viewpoints=False), CONFIG)
+
+
 def test_the_wall_ends_where_it_was_seen() -> None:
     """A slanting look through a doorway widens to the door, never into the wall."""
     narrow: Box = (6.0, 2.9, 6.3, 5.0)
