@@ -18,6 +18,8 @@ Vertices that repeat, or lie on a straight side, are steps of no height: they ch
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -35,7 +37,12 @@ def turning_distance(vertices: Float) -> float:
     >>> turning_distance(np.array([[0, 0], [3, 0], [3, 3], [0, 3]]))
     0.0
     """
-    return turning_distance_between(vertices, SQUARE)
+    return float(_distance(*turning_function(vertices), *_square_function()))
+
+
+@cache
+def _square_function() -> tuple[Float, Float]:
+    return turning_function(SQUARE)
 
 
 def turning_distance_between(a: Float, b: Float) -> float:

@@ -98,7 +98,7 @@ class Neighbours:
     def bounds_within(self, part: Any) -> Float:
         """(N, 4) the bounds of what the box ``part`` has in common with each that it meets."""
         near = self._near(part)
-        if not near.any():
+        if not near.any():  # as most often
             return np.empty((0, 4))
         clipped = shapely.clip_by_rect(self._polygons[near], *part.bounds)
         return np.asarray(shapely.bounds(clipped[~shapely.is_empty(clipped)]))
@@ -149,8 +149,13 @@ class RoomGrower:
         polygon = shapely.orient_polygons(polygon)
         if not self._is_guessed(polygon):
             return polygon
-        filled = self._fill_notches(self._pull_back(polygon), others)
-        return self._fill_notches(self._push_sides(filled, others), others)
+        back = self._pull_back(polygon)
+        filled = self._fill_notches(back, others)
+        pushed = self._push_sides(filled, others)
+        whole = _largest(pushed)
+        if filled is back and pushed is filled:
+            return whole  # the notches that it has are those that were just left
+        return self._fill_notches(whole, others)
 
     def _sides(self, polygon: Any) -> list[RegionSide]:
         """The outer sides."""
@@ -212,7 +217,7 @@ class RoomGrower:
             depth = self._depth(front, polygon, others)
             if depth > ON and self._unknown(front.ahead(depth), polygon, others):
                 polygon = polygon.union(front.ahead(depth))
-        return _largest(polygon)
+        return polygon
 
     def _frontiers(self, polygon: Any) -> Iterator[Frontier]:
         """The guessed sides; those on a plane of the building where nothing was seen of it are borrowed."""
@@ -285,7 +290,8 @@ class RoomGrower:
 
     def _before_regions(self, front: Frontier, others: Neighbours, reach: Reach) -> Reach:
         """Between two regions stands a wall."""
-        strip = front.ahead(_REACH, min(DEEP, (front.high - front.low) / 3))
+        depth = min(_REACH, max(reach.limit, reach.stop + self._walls.thickness))  # beyond it none matters
+        strip = front.ahead(depth, min(DEEP, (front.high - front.low) / 3))
         met = others.bounds_within(strip)
         if not len(met):
             return reach
@@ -311,6 +317,8 @@ class RoomGrower:
 
 def _large_patches(mask: Bool, least: float) -> Bool:
     """The mask without its patches of fewer than ``least`` cells."""
+    if not mask.any():
+        return mask
     label, count = label_patches(mask)
     large = np.bincount(label.ravel(), minlength=count + 1) >= least
     large[0] = False
