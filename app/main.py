@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from floorcast_app.warm_up import WarmUp
+from floorcast_app.warm_up import WarmUp, load_without_collecting
 
 if TYPE_CHECKING:
     from floorcast_app.main_window import MainWindow
 
-SWITCH = 0.0005  # s after which a thread that computes is asked to let the window have the interpreter
+SWITCH = 0.0001  # s after which a thread that computes is asked to let the window have the interpreter
 SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
 LAST_WAIT = 60.0  # s for a thread that is compiling or reading; nobody sees it, the window is gone
 
@@ -30,6 +30,7 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
         from floorplan_core.errors import UsageError
 
         raise UsageError("There is no display to open a window on; 'floorcast gui --script FILE' needs none.")
+    load_without_collecting()
     from PySide6.QtCore import QTimer
 
     app = make_application()

@@ -14,6 +14,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
 from floorcast_app.main_window import MainWindow
+from floorcast_app.panels.base import catch_up
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import FloorPlanError, InputError, UsageError
 
@@ -41,14 +42,14 @@ class ScriptedApplication:
             loop = QEventLoop()
             QTimer.singleShot(20, loop.quit)
             loop.exec()
-        QApplication.processEvents()
+        _settle()
         if self._error is not None:
             error, self._error = self._error, None
             raise error
 
     def picture(self, path: str | Path, pane: str = "window", width: int = 1440, height: int = 900) -> None:
         """Write a picture of a pane, or of the whole window."""
-        QApplication.processEvents()
+        _settle()
         self.window.save_picture(Path(path), pane, width, height)
 
     def click(self, pane: str, x: float, y: float) -> None:
@@ -66,6 +67,13 @@ class ScriptedApplication:
 
     def _ended(self, error: Exception | None) -> None:
         self._error = error
+
+
+def _settle() -> None:
+    """Let all that follows from the last action happen."""
+    QApplication.processEvents()
+    catch_up()
+    QApplication.processEvents()
 
 
 def run_script(path: Path, window: MainWindow) -> None:

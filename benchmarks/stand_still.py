@@ -1,7 +1,8 @@
 """Who holds the event loop: every gap between two ticks, and what each thread did in it.
 
-On a busy machine a gap is also time in which the window's own thread had no processor: Linux says how long it
-waited for that, and this part of a gap is told apart. Where asked, Python's watchdog writes the stacks of all
+On a busy machine a gap is also time in which the window's own thread had no processor: Linux says how long
+it waited for that, and for how long a virtual machine had none at all (100 ms at a time are common); this
+part of a gap is told apart. Where asked, Python's watchdog writes the stacks of all
 threads whenever the loop comes late. It does so without the interpreter lock: whoever holds the lock is seen
 in the call that holds it, but a stack that changes meanwhile may end the program. It is for looking, not for
 measuring.
@@ -10,6 +11,7 @@ measuring.
 from __future__ import annotations
 
 import faulthandler
+import os
 import tempfile
 import threading
 import time
@@ -42,16 +44,17 @@ class Gap:
 
 @dataclass(frozen=True)
 class _Clock:
-    """Milliseconds: of the wall, and of each thread (name, computed, waited for a processor)."""
+    """Milliseconds: of the wall, stolen by the host, and of each thread (name, computed, waited)."""
 
     at: float
+    stolen: float
     threads: dict[int, tuple[str, float, float]]
 
     @classmethod
     def now(cls) -> _Clock:
         threads = [(t.native_id, t.name) for t in threading.enumerate()]
         found = {id: (name, _computed(id), _waited(id)) for id, name in threads if id is not None}
-        return cls(time.perf_counter() * 1000, found)
+        return cls(time.perf_counter() * 1000, _stolen(), found)
 
 
 def _brief(dumps: str) -> str:
@@ -78,6 +81,15 @@ def _waited(thread: int) -> float:
     try:
         return int(Path(f"/proc/self/task/{thread}/schedstat").read_text().split()[1]) / 1e6
     except (OSError, IndexError, ValueError):
+        return 0.0
+
+
+def _stolen() -> float:
+    """Milliseconds in which the host ran others in place of this machine, mean of the processors."""
+    try:
+        fields = Path("/proc/stat").read_text().splitlines()[0].split()
+        return int(fields[8]) / os.sysconf("SC_CLK_TCK") / (os.cpu_count() or 1) * 1000
+    except (OSError, IndexError, ValueError, AttributeError):
         return 0.0
 
 
@@ -123,7 +135,8 @@ class StandStill(QObject):
             spent[id] = (name, computed - before, waited - ready)
         _, busy, waited = spent.pop(self._main)
         others = tuple((name, computed) for name, computed, _ in spent.values())
-        return Gap(now.at - last.at, waited, busy, others, self._stacks())
+        total, stolen = now.at - last.at, now.stolen - last.stolen
+        return Gap(total, min(waited + stolen, total - busy), busy, others, self._stacks())
 
     def _stacks(self) -> str:
         self._file.seek(0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
+from weakref import WeakSet
 
 import shiboken6
 from PySide6.QtCore import QPoint, Qt, QTimer
@@ -15,6 +16,7 @@ from floorcast_app.events import Event
 from floorcast_app.workbench import Workbench
 
 GRID = 8  # px: all distances are multiples of it
+TURN = 12  # ms between two panels that refresh after the same event: what each asks of Qt is done in between
 
 
 class Panel(QWidget):
@@ -28,13 +30,15 @@ class Panel(QWidget):
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
         self._soon.timeout.connect(self.refresh)
+        _panels.add(self)
 
     def refresh(self) -> None:
         """Show what holds now."""
 
     def refresh_soon(self, *_: object) -> None:
-        """Refresh when the present burst of events is over."""
-        self._soon.start(0)
+        """Refresh when the present burst of events is over, and the panels that were told before have."""
+        if not self._soon.isActive():
+            self._soon.start(TURN * len(_waiting()))
 
     def listen(self, *events: Event, then: Callable[..., None] | None = None) -> None:
         """Call ``then`` (by default :meth:`refresh_soon`) at each event, as long as the widget lives."""
@@ -45,6 +49,21 @@ class Panel(QWidget):
     def picture(self, width: int, height: int) -> QImage:
         """The panel as a picture, ratio 1."""
         return picture_of(self, width, height)
+
+
+_panels: WeakSet[Panel] = WeakSet()
+
+
+def _waiting() -> list[Panel]:
+    """The panels that will refresh soon."""
+    return [panel for panel in _panels if shiboken6.isValid(panel) and panel._soon.isActive()]
+
+
+def catch_up() -> None:
+    """Refresh all panels that would have done so soon: for a script, and for pictures."""
+    for panel in _waiting():
+        panel._soon.stop()
+        panel.refresh()
 
 
 def listener_of(widget: QWidget, call: Callable[..., None], event: Event) -> Callable[..., None]:

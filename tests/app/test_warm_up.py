@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import subprocess
 import sys
 import threading
 
-from floorcast_app.warm_up import WarmUp
+from floorcast_app.warm_up import WarmUp, load_without_collecting
 from floorcast_app.workers.planner import LocalPlanner
 from floorcast_app.workers.remote_planner import RemotePlanner
 
@@ -66,3 +67,16 @@ def test_stopped_before_it_begins_it_starts_nothing() -> None:
     warming.start()
     warming._thread.join(60)
     assert not warming._thread.is_alive() and not planner.started.is_set()
+
+
+def test_what_was_loaded_is_never_looked_through_again() -> None:
+    before = gc.isenabled(), gc.get_freeze_count()
+    load_without_collecting()
+    assert not gc.isenabled()
+    warming = WarmUp(LocalPlanner())
+    warming.start()
+    warming._thread.join()
+    try:
+        assert gc.isenabled() and gc.get_freeze_count() > before[1]
+    finally:
+        gc.unfreeze()
