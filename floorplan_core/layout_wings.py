@@ -4,18 +4,31 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import shapely
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.raster import polygon_mask
 from floorplan_core.layout import Layout, lay_out
-from floorplan_core.model import OccupancyGrid, Region, Wing
+from floorplan_core.model import LayoutPlane, OccupancyGrid, Region, Wing
+from floorplan_core.model.corrections import RejectDoor
 from floorplan_core.model.floor_plan import regions_mask
+from floorplan_core.model.layout import turned
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, Said, said_of_part
-from floorplan_core.stages.wing_joins import PartLayout, join_doors, join_grids, join_regions, named
+from floorplan_core.stages.corrections_regions import opened
+from floorplan_core.stages.wing_joins import (
+    PartLayout,
+    join_doors,
+    join_grids,
+    join_regions,
+    named,
+    walls_of,
+)
+from floorplan_core.stages.wing_shapes import correct_joined_shapes
 from floorplan_core.stages.wings import Part, same_floor
 from floorplan_core.steps import StageRunner
 
@@ -26,7 +39,8 @@ def add_wings(
     """``main``, which is the layout of the first part, with the regions and doors of the others.
 
     A wing that gives no plan by itself is left out, with a remark. ``say`` is what a person said of the whole
-    plan; a wing takes what is said of its walls.
+    plan: each part takes what is said of its walls and doors; regions are merged and split when all are
+    joined.
     """
     whole, remarks = parts[0].evidence, main.remarks
     turns = [part.turn for part in parts]
@@ -57,16 +71,27 @@ def add_wings(
             )
         )
     regions, grid = join_regions(found, config.regions.min_area), join_grids(main.grid, found[1:], cells)
+    regions, merged, shaped = correct_joined_shapes(
+        regions, say.shapes, turns, walls_of(found), grid, config.regions.min_area
+    )
     left = main.cover.uncovered & ~regions_mask(regions, grid)  # a region of a wing may have it
     joined = replace(
         main,
+        planes=_opened(main.planes, merged, 0.0),
         regions=tuple(_counted(r, grid) for r in regions),
-        doors=join_doors(found),
+        doors=join_doors(found, [c.at for c in say.doors if isinstance(c, RejectDoor)]),
         grid=grid,
         cover=replace(main.cover, uncovered=left),
-        remarks=remarks,
+        remarks=remarks + shaped,
     )
-    return joined, tuple(wings)
+    return joined, tuple(replace(w, planes=_opened(w.planes, merged, w.turn)) for w in wings)
+
+
+def _opened(planes: tuple[LayoutPlane, ...], merged: tuple[Any, ...], turn: float) -> tuple[LayoutPlane, ...]:
+    """Planes in axes turned by ``turn`` without their walls inside of merged regions."""
+    for polygon in merged:
+        planes = opened(planes, shapely.transform(polygon, lambda xy: turned(xy, -turn)))
+    return planes
 
 
 def _counted(region: Region, grid: OccupancyGrid) -> Region:

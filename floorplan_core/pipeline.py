@@ -153,7 +153,8 @@ class FloorPlanner:
         regions, doors = self._named(self._some(regions), doors, storey, frame)
         regions, remarks = correct_names(regions, say.names)
         said += remarks + self._lost(made.doors, doors)
-        points = stage("regions", lambda: thin_wall_points(evidence, segments), evidence, segments)
+        shown = (*segments, *(s for w in wings for s in w.segments))
+        points = stage("regions", lambda: thin_wall_points(evidence, shown), evidence, shown)
 
         self.observer.check_cancelled()
         return FloorPlan(

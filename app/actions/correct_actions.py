@@ -5,14 +5,20 @@ Things are given by id, or are those selected; places are plan coordinates in me
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from floorcast_app.actions.naming import (
     Ids,
     about,
+    across_door,
     asked_number,
     door_at,
+    line_across,
     middle,
     names_of,
     plane_at,
@@ -126,7 +132,8 @@ def accept_door(workbench: Workbench, door: Ids = None) -> None:
     """Say of doors that they are ones."""
     chosen = things(workbench, "door", door)
     workbench.correct(
-        f"Accept {names_of('door', chosen)}", *(AcceptDoor(door_at(workbench, d)) for d in chosen)
+        f"Accept {names_of('door', chosen)}",
+        *(AcceptDoor(door_at(workbench, d), across_door(workbench, d)) for d in chosen),
     )
 
 
@@ -134,7 +141,8 @@ def reject_door(workbench: Workbench, door: Ids = None) -> None:
     """Say of doors that there is wall."""
     chosen = things(workbench, "door", door)
     workbench.correct(
-        f"Reject {names_of('door', chosen)}", *(RejectDoor(door_at(workbench, d)) for d in chosen)
+        f"Reject {names_of('door', chosen)}",
+        *(RejectDoor(door_at(workbench, d), across_door(workbench, d)) for d in chosen),
     )
 
 
@@ -150,7 +158,7 @@ def add_door(
         return
     if kind not in ("auto", "door", "opening"):
         raise UsageError(f"A door is a 'door' or an 'opening', not {kind!r}.")
-    width = max(abs(float(a) - float(b)) for a, b in zip(start, end, strict=True))
+    width = math.dist([float(v) for v in start], [float(v) for v in end])
     if kind == "auto":
         kind = "opening" if width > _WIDEST_DOOR else "door"
     workbench.correct("Add door", AddDoor(point(workbench, start), point(workbench, end), kind))
@@ -173,15 +181,12 @@ def resize_door(
         if not width > 0:
             raise UsageError(f"A door cannot be {width:g} m wide.")
         half, centre = width / 2, (chosen.start + chosen.end) / 2
-        start, end = _along(chosen, centre - half), _along(chosen, centre + half)
-    across = 1 - chosen.axis
-    text = f"Resize door {chosen.id} to {abs(float(end[across]) - float(start[across])):.3f} m"
+        start, end = replace(chosen, start=centre - half, end=centre + half).line().tolist()
+    along = 1 - chosen.axis
+    low, high = sorted(chosen.in_own(np.array([start, end], dtype=np.float64))[:, along].tolist())
+    text = f"Resize door {chosen.id} to {high - low:.3f} m"
     ends = point(workbench, start), point(workbench, end)
     workbench.correct(text, ResizeDoor(door_at(workbench, chosen), *ends))
-
-
-def _along(door: Door, at: float) -> tuple[float, float]:
-    return (door.offset, at) if door.axis == 0 else (at, door.offset)
 
 
 def relabel(workbench: Workbench, region: Ids = None, label: str | None = None) -> None:
@@ -232,17 +237,11 @@ def split(
     With a region only: across the middle of its longer extent. Without anything: take the tool.
     """
     if region is not None and (start is None or end is None):
-        start, end = _across(things(workbench, "region", region)[0].polygon.bounds)
+        start, end = line_across(workbench, things(workbench, "region", region)[0])
     if start is None or end is None:
         workbench.set_tool("split")
         return
     workbench.correct("Split region", SplitRegion(point(workbench, start), point(workbench, end)))
-
-
-def _across(bounds: tuple[float, float, float, float]) -> tuple[Place, Place]:
-    x0, y0, x1, y1 = bounds
-    x, y = (x0 + x1) / 2, (y0 + y1) / 2
-    return ((x, y0), (x, y1)) if x1 - x0 > y1 - y0 else ((x0, y), (x1, y))
 
 
 def release(workbench: Workbench, item: Item | str | None = None) -> None:

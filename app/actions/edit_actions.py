@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from floorcast_app.actions.naming import about, door_at, plane_at
+from floorcast_app.actions.naming import about, across_door, door_at, plane_at
 from floorcast_app.actions.registry import Action
 from floorcast_app.selection import Item
 from floorplan_core.errors import UsageError
@@ -64,7 +64,8 @@ def delete(workbench: Workbench) -> None:
     dropped: set[int] = set()
     for item in items:
         if item.kind == "door":
-            said.append(RejectDoor(door_at(workbench, workbench.find(item))))
+            door = workbench.find(item)
+            said.append(RejectDoor(door_at(workbench, door), across_door(workbench, door)))
         elif item.kind == "plane":
             drop, more = _delete_plane(workbench, item)
             dropped |= drop

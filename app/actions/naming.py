@@ -7,9 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import shapely
 
 from floorcast_app.format import number
+from floorcast_app.layers.source import source_of
 from floorcast_app.selection import Item
 from floorplan_core.errors import UsageError
 from floorplan_core.model import Door, LayoutPlane, Region
@@ -30,9 +32,11 @@ from floorplan_core.model.corrections import (
     ResizeDoor,
     SplitRegion,
 )
-from floorplan_core.stages.corrections import REACH, in_plan, shifted, turned_back
+from floorplan_core.model.layout import turned
+from floorplan_core.stages.corrections import REACH, in_plan, part_of, shifted, turned_back
 from floorplan_core.stages.corrections_doors import find_door
 from floorplan_core.stages.corrections_walls import facing_of, find_plane
+from floorplan_core.stages.wing_joins import named
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
@@ -41,7 +45,10 @@ _SAME = 1e-3  # m, between where a wall lies and where it was moved to
 _SPLIT = 0.05  # m, from the boundary of a region to the line that made it
 WORDS = {"plane": "wall", "door": "door", "region": "region", "check": "check"}
 
+_OF_REGIONS = (LabelRegion, NameRegion, MergeRegions, SplitRegion)
+
 Ids = str | Sequence[str] | None
+Said = Sequence[tuple[int, Correction]]  # place in the document's list, and what is said in plan coordinates
 
 
 def things(workbench: Workbench, kind: str, ids: Ids = None, least: int = 1) -> list[Any]:
@@ -92,10 +99,31 @@ def door_at(workbench: Workbench, door: Door) -> Point:
     return workbench.to_local((float(x), float(y)))
 
 
+def across_door(workbench: Workbench, door: Door) -> Point:
+    """Unit vector across the wall of a door, local frame: it tells in which wing the wall is."""
+    normal = (1.0, 0.0) if door.axis == 0 else (0.0, 1.0)
+    (x, y), (u, v) = door.in_plan(np.array([(0.0, 0.0), normal])).tolist()
+    here, there = workbench.to_local((x, y)), workbench.to_local((u, v))
+    return there[0] - here[0], there[1] - here[1]
+
+
 def region_at(workbench: Workbench, region: Region) -> Point:
     """A place well inside a region, local frame."""
     inside = region.polygon.representative_point()
     return workbench.to_local((float(inside.x), float(inside.y)))
+
+
+def line_across(workbench: Workbench, region: Region) -> tuple[Point, Point]:
+    """Across the middle of a region, in the axes of its walls."""
+    assert workbench.plan is not None
+    inside = region.polygon.representative_point()
+    turn = source_of(workbench.plan).turn_at(inside.x, inside.y)
+    corners = turned(np.array(region.polygon.exterior.coords), -turn)
+    (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    ends = ((x, y0), (x, y1)) if x1 - x0 > y1 - y0 else ((x0, y), (x1, y))
+    (ax, ay), (bx, by) = turned(np.array(ends), turn).tolist()
+    return (ax, ay), (bx, by)
 
 
 def about(workbench: Workbench, item: Item) -> frozenset[int]:
@@ -103,9 +131,19 @@ def about(workbench: Workbench, item: Item) -> frozenset[int]:
     found = workbench.find(item)
     if found is None or workbench.plan is None:
         return frozenset()
-    said = [_in_plan(c, workbench) for c in workbench.state.corrections]
-    test = {"plane": _of_plane, "door": _of_door, "region": _of_region}.get(item.kind)
-    return frozenset() if test is None else frozenset(test(said, found))
+    said = [(k, _in_plan(c, workbench)) for k, c in enumerate(workbench.state.corrections)]
+    if isinstance(found, Region):
+        return frozenset(_of_region(said, found))
+    if not isinstance(found, LayoutPlane | Door):
+        return frozenset()
+    turns = [0.0, *(wing.turn for wing in workbench.plan.wings)]
+    mine = turns.index(found.turn)  # the part whose wall it is: what is said of others does not count
+    walls = [(k, c) for k, c in said if not isinstance(c, _OF_REGIONS) and part_of(c, turns) == mine]
+    own = [(k, turned_back(c, found.turn)) for k, c in walls]
+    plain = replace(found, turn=0.0)
+    if isinstance(plain, Door):
+        return frozenset(_of_door(own, plain))
+    return frozenset(_of_plane(own, plain, [k for k, c in own if isinstance(c, AddWall)], mine))
 
 
 def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
@@ -114,26 +152,20 @@ def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
     return (*said.walls, *said.doors, *said.shapes, *said.names)[0]
 
 
-def _of_plane(said: Sequence[Correction], plane: LayoutPlane) -> list[int]:
+def _of_plane(said: Said, plane: LayoutPlane, added: Sequence[int], part: int) -> list[int]:
     """Backwards, as a wall may have been moved several times; in the axes of the wall's own part."""
-    said = [turned_back(c, plane.turn) for c in said]
-    plane = replace(plane, turn=0.0)
     out, axis = [], plane.facing.axis
-    for k, c in reversed(list(enumerate(said))):
+    for k, c in reversed(said):
         if isinstance(c, MovePlane) and facing_of(c.plane.normal) == plane.facing:
             if abs(c.to[axis] - plane.offset) < _SAME and find_plane([plane], _beside(c.plane, plane)):
                 out.append(k)
                 plane = replace(plane, offset=c.plane.at[axis])
-        elif _speaks_of(c, k, said, plane):
-            out.append(k)
+        elif isinstance(c, HidePlane | KeepPlane):
+            out += [k] if _is_at(c.plane, plane) else []
+        elif isinstance(c, AddWall) and plane.by_hand:
+            number = 1 + added.index(k)
+            out += [k] if plane.id in (named(f"hw{number}{side}", part) for side in "ab") else []
     return out
-
-
-def _speaks_of(correction: Correction, index: int, said: Sequence[Correction], plane: LayoutPlane) -> bool:
-    """True where a wall was switched, kept or added by this correction."""
-    if isinstance(correction, HidePlane | KeepPlane):
-        return _is_at(correction.plane, plane)
-    return isinstance(correction, AddWall) and bool(plane.by_hand) and _is_added(plane.id, index, said)
 
 
 def _beside(at: PlaneAt, plane: LayoutPlane) -> PlaneAt:
@@ -150,14 +182,9 @@ def _is_at(at: PlaneAt, plane: LayoutPlane) -> bool:
     return facing_of(at.normal) == plane.facing and near
 
 
-def _is_added(name: str, index: int, said: Sequence[Correction]) -> bool:
-    number = sum(isinstance(c, AddWall) for c in said[: index + 1])
-    return name in (f"hw{number}a", f"hw{number}b")
-
-
-def _of_door(said: Sequence[Correction], door: Door) -> list[int]:
+def _of_door(said: Said, door: Door) -> list[int]:
     out = []
-    for k, c in enumerate(said):
+    for k, c in said:
         if isinstance(c, AcceptDoor | RejectDoor | ResizeDoor) and find_door([door], c.at):
             out.append(k)
         elif isinstance(c, AddDoor):
@@ -166,12 +193,12 @@ def _of_door(said: Sequence[Correction], door: Door) -> list[int]:
     return out
 
 
-def _of_region(said: Sequence[Correction], region: Region) -> list[int]:
+def _of_region(said: Said, region: Region) -> list[int]:
     def inside(at: Point) -> bool:
         return bool(region.polygon.contains(shapely.Point(at)))
 
     out = []
-    for k, c in enumerate(said):
+    for k, c in said:
         if isinstance(c, LabelRegion | NameRegion):
             out += [k] if inside(c.at) else []
         elif isinstance(c, MergeRegions):

@@ -23,7 +23,9 @@ class HitIndex:
     def __init__(self, source: PlanSource) -> None:
         import shapely
 
-        self._boxes = np.array([o.bounds for o in source.walls.openings]).reshape(-1, 4)
+        self._boxes = np.array([o.own for o in source.walls.openings]).reshape(-1, 4)
+        turn = np.array([o.door.turn for o in source.walls.openings])
+        self._axes = np.stack([np.cos(turn), np.sin(turn)], axis=1).reshape(-1, 2)  # x axis of each box
         self._doors = [Item("door", o.door.id) for o in source.walls.openings]
         shapes = [plane_shape(p) for p in source.plan.all_planes]
         self._planes = [s.item for s in shapes]
@@ -60,7 +62,9 @@ class HitIndex:
         if "doors" not in look.layers or not len(self._boxes):
             return None
         b = self._boxes
-        away = np.hypot(*(np.maximum(0, np.maximum(b[:, :2] - (x, y), (x, y) - b[:, 2:])).T))
+        c, s = self._axes.T
+        own = np.stack([c * x + s * y, c * y - s * x], axis=1)  # the place in the axes of each door's wall
+        away = np.hypot(*(np.maximum(0, np.maximum(b[:, :2] - own, own - b[:, 2:])).T))
         return _nearest(away, reach, self._doors, look)
 
     def _plane(self, x: float, y: float, reach: float, look: Look, dotted: bool) -> Item | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from floorplan_core.model import LayoutPlane
 
 Float = NDArray[np.float64]
 
-_STRAIGHT = 1e-6  # metres between the ends of a wall across it, beyond which it is at a slant
+_STRAIGHT = 1e-6  # metres between the ends of a wall across it: it is as good as parallel to an axis
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Snap:
     kind: str  # "corner", "jamb", "wall" or "" where nothing is near
     x: float  # metres, manhattan frame
     y: float
-    axis: int | None = None  # of the wall's normal, on walls; None where it is at a slant
+    along: tuple[float, float] | None = None  # unit vector along the wall, where it lies on one
 
     @property
     def xy(self) -> tuple[float, float]:
@@ -40,8 +41,7 @@ class SnapIndex:
         self.source = source
         regions, openings = source.plan.regions, source.walls.openings
         self._corners = shapely.get_coordinates([r.polygon for r in regions]).reshape(-1, 2)
-        boxes = np.array([o.bounds for o in openings]).reshape(-1, 4)
-        self._jambs = np.vstack([boxes[:, [i, j]] for i in (0, 2) for j in (1, 3)])
+        self._jambs = np.vstack([np.zeros((0, 2)), *(o.faces.reshape(4, 2) for o in openings)])
         sides = np.array([(*s.start, *s.end) for r in regions for s in r.sides]).reshape(-1, 4)
         self._walls = np.vstack([sides, *(p.reshape(-1, 4) for p in _plane_lines(source.plan.all_planes))])
 
@@ -80,12 +80,13 @@ def _on_wall(line: Float, x: float, y: float) -> Snap:
     """The foot of the perpendicular on a wall."""
     x0, y0, x1, y1 = line.tolist()
     if abs(x1 - x0) <= _STRAIGHT:
-        return Snap("wall", x0, min(max(y, min(y0, y1)), max(y0, y1)), axis=0)
+        return Snap("wall", x0, min(max(y, min(y0, y1)), max(y0, y1)), along=(0.0, 1.0))
     if abs(y1 - y0) <= _STRAIGHT:
-        return Snap("wall", min(max(x, min(x0, x1)), max(x0, x1)), y0, axis=1)
+        return Snap("wall", min(max(x, min(x0, x1)), max(x0, x1)), y0, along=(1.0, 0.0))
     dx, dy = x1 - x0, y1 - y0
     t = min(max(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy), 0.0), 1.0)
-    return Snap("wall", x0 + t * dx, y0 + t * dy)
+    length = math.hypot(dx, dy)
+    return Snap("wall", x0 + t * dx, y0 + t * dy, along=(dx / length, dy / length))
 
 
 def snap_offset(source: PlanSource, plane: LayoutPlane, offset: float, reach: float) -> tuple[float, str]:

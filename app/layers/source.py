@@ -83,6 +83,20 @@ class PlanSource:
         thick = self.walls.thickness
         return x0 - thick, y0 - thick, x1 + thick, y1 + thick
 
+    def turn_at(self, x: float, y: float) -> float:
+        """Radians from the plan's axes to those of most walls of the region at, or nearest to, a place."""
+        import shapely
+
+        if not self.plan.wings or not self.plan.regions:
+            return 0.0
+        away = shapely.distance([r.polygon for r in self.drawn.regions], shapely.Point(x, y))
+        metres: dict[float, float] = {0.0: 0.0}
+        for side in self.plan.regions[int(away.argmin())].sides:
+            if side.plane in self.planes:
+                turn = self.planes[side.plane].turn
+                metres[turn] = metres.get(turn, 0.0) + side.length
+        return max(metres, key=lambda turn: metres[turn])
+
     @cached_property
     def hits(self) -> HitIndex:
         """What lies under the pointer."""

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from floorcast_app.colours import THEMES
 from floorcast_app.point_store import Points
 from floorcast_app.rendering import ramps
-from floorplan_core.model import Facing, FloorPlan, LocalFrame
+from floorplan_core.model import Facing, FloorPlan, LayoutPlane, LocalFrame
+from floorplan_core.model.layout import turned
 
 Float = NDArray[np.float64]
 Floats = NDArray[np.float32]
@@ -131,8 +132,9 @@ def _by_height(cloud: Cloud, plan: FloorPlan | None, theme: str, note: str) -> P
 def _by_plane(cloud: Cloud, by: str, plan: FloorPlan, theme: str) -> Colours:
     """Points near a plane have its colour; the others stay grey."""
     holds = THEMES[theme]
-    table = facing_colours(theme) if by == "facing" else ramps.plane_colours(len(plan.planes), theme)
-    rows = [p.facing for p in plan.planes] if by == "facing" else list(range(len(plan.planes)))
+    table = facing_colours(theme) if by == "facing" else ramps.plane_colours(len(plan.all_planes), theme)
+    planes = plan.all_planes
+    rows = [p.facing for p in planes] if by == "facing" else list(range(len(planes)))
     grey = ramps.packed(holds.predicted)
     table = np.append(table[np.array(rows, dtype=np.int64)], np.uint32(grey))  # row -1: no plane
     cells, origin = plane_raster(plan)
@@ -167,25 +169,42 @@ def plane_raster(plan: FloorPlan) -> tuple[NDArray[np.int16], Float]:
 
     Ties go to the plane that comes first.
     """
-    boxes = [(n, p, run) for n, p in enumerate(plan.planes) for run in _runs(p)]
+    boxes = [(n, p, run) for n, p in enumerate(plan.all_planes) for run in _runs(p)]
     if not boxes:
         return np.full((1, 1), -1, dtype=np.int16), np.zeros(2)
-    rects = np.array([_strip(p, run) for _, p, run in boxes])
+    rects = np.array([_strip(p, run) if p.turn == 0.0 else _around(p, run) for _, p, run in boxes])
     origin = rects[:, :2].min(axis=0) - PLANE_CELL
     nx, ny = (np.ceil((rects[:, 2:].max(axis=0) - origin) / PLANE_CELL).astype(int) + 1).tolist()
     cells = np.full((ny, nx), -1, dtype=np.int16)
     nearest = np.full((ny, nx), np.inf, dtype=np.float32)
     index = np.clip(np.round((rects - np.tile(origin, 2)) / PLANE_CELL).astype(int), 0, None)
-    for (number, plane, _), (x0, y0, x1, y1) in zip(boxes, index.tolist(), strict=True):
-        axis = plane.facing.axis
-        first, last = (x0, x1) if axis == 0 else (y0, y1)
-        away = np.abs(origin[axis] + (np.arange(first, last) + 0.5) * PLANE_CELL - plane.offset)
-        away = away[None, :] if axis == 0 else away[:, None]
+    for (number, plane, run), (x0, y0, x1, y1) in zip(boxes, index.tolist(), strict=True):
+        x = origin[0] + (np.arange(x0, x1) + 0.5) * PLANE_CELL
+        y = origin[1] + (np.arange(y0, y1) + 0.5) * PLANE_CELL
+        away = _away(plane, run, x[None, :], y[:, None])
         window = (slice(y0, y1), slice(x0, x1))
         closer = away < nearest[window]
         nearest[window] = np.where(closer, away, nearest[window])
         cells[window] = np.where(closer, number, cells[window])
     return cells, origin
+
+
+def _away(plane: LayoutPlane, run: Float, x: Float, y: Float) -> Float:
+    """Metres from places to a plane; infinitely far beside a run of a wing's, whose strip is no box here."""
+    if plane.turn == 0.0:
+        return np.abs((x if plane.facing.axis == 0 else y) - plane.offset)
+    c, s = np.cos(plane.turn), np.sin(plane.turn)
+    across, along = (c * x + s * y, c * y - s * x)[:: 1 - 2 * plane.facing.axis]
+    away = np.abs(across - plane.offset)
+    return np.where((along >= run[0]) & (along <= run[1]) & (away <= PLANE_REACH), away, np.inf)
+
+
+def _around(plane: LayoutPlane, run: Float) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 around a run of a plane of a wing."""
+    x0, y0, x1, y1 = _strip(plane, run)
+    corners = turned(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), plane.turn)
+    (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return x0, y0, x1, y1
 
 
 def _runs(plane: object) -> Float:

@@ -30,10 +30,10 @@ class TwoPointTool(Tool):
     # ---- what differs between the tools -----------------------------------------------------------------
 
     def aim(self, first: Point, at: At) -> Snap:
-        """Where the second click would go: straight along x or y, towards what it snaps to."""
-        snap = self.snap(at)
-        x, y = straight(first, snap.xy)
-        return Snap(snap.kind, x, y, snap.axis)
+        """Where the second click would go: along the axes of this part, towards what it snaps to."""
+        snap, source = self.snap(at), self.source
+        turn = source.turn_at(*first) if source is not None else 0.0
+        return Snap(snap.kind, *straight(first, snap.xy, turn), snap.along)
 
     def start(self, at: At) -> Snap | None:
         """Where the first click would go; None where it cannot begin."""

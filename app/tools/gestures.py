@@ -142,10 +142,25 @@ class Tool:
         return ()
 
 
-def straight(start: Point, end: Point) -> Point:
-    """``end`` moved so that the line from ``start`` runs along x or y, whichever it is nearer to."""
+def straight(start: Point, end: Point, turn: float = 0.0) -> Point:
+    """``end`` moved so that the line from ``start`` runs along x or y, whichever it is nearer to.
+
+    :param turn: radians from the plan's axes to those that x and y are here.
+
+    >>> straight((1.0, 1.0), (3.0, 1.4))
+    (3.0, 1.0)
+    """
     dx, dy = end[0] - start[0], end[1] - start[1]
-    return (end[0], start[1]) if abs(dx) >= abs(dy) else (start[0], end[1])
+    if turn == 0.0:
+        return (end[0], start[1]) if abs(dx) >= abs(dy) else (start[0], end[1])
+    x, y = (math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))
+    return on_line(start, max((x, y), key=lambda u: abs(dx * u[0] + dy * u[1])), end)
+
+
+def on_line(start: Point, along: Point, at: Point) -> Point:
+    """The foot of a place on the line through ``start`` along a unit vector."""
+    t = (at[0] - start[0]) * along[0] + (at[1] - start[1]) * along[1]
+    return start[0] + t * along[0], start[1] + t * along[1]
 
 
 def towards(start: Point, end: Point, length: float) -> Point:

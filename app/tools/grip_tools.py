@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from floorcast_app.layers.snap_index import Snap
 from floorcast_app.tools.draw_tools import TwoPointTool
-from floorcast_app.tools.gestures import SNAP, At, Mark, Point
+from floorcast_app.tools.gestures import SNAP, At, Mark, Point, on_line
 from floorcast_app.tools.select_tool import SelectTool
 
 if TYPE_CHECKING:
@@ -71,27 +71,21 @@ class DoorLine(TwoPointTool):
 
     role = "door"
     nowhere = "Click on a wall: a door needs one."
-    at_a_slant = "A door in a wing at another angle cannot be drawn."
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self._axis = 0
+        self._along: Point = (1.0, 0.0)  # of the wall
 
     def start(self, at: At) -> Snap | None:
         source = self.source
         wall = source.snaps.wall(at.x, at.y, at.reach(SNAP)) if source is not None else None
-        if wall is not None and wall.axis is None:
-            self.nowhere = self.at_a_slant
-            return None
-        self.nowhere = type(self).nowhere
-        if wall is not None:
-            self._axis = wall.axis or 0
+        if wall is not None and wall.along is not None:
+            self._along = wall.along
         return wall
 
     def aim(self, first: Point, at: At) -> Snap:
         snap = self.snap(at)
-        on_wall = (first[0], snap.y) if self._axis == 0 else (snap.x, first[1])
-        return Snap(snap.kind, *on_wall, self._axis)
+        return Snap(snap.kind, *on_line(first, self._along, snap.xy), self._along)
 
     def finish(self, start: Point, end: Point) -> None:
         self.workbench.try_run("correct.add_door", start=start, end=end)

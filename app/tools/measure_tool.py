@@ -9,7 +9,7 @@ from floorcast_app import format
 from floorcast_app.layers.snap_index import Snap
 from floorcast_app.layers.source import PlanSource
 from floorcast_app.tools.draw_tools import TwoPointTool
-from floorcast_app.tools.gestures import SNAP, At, Mark, Point, distance, straight
+from floorcast_app.tools.gestures import SNAP, At, Mark, Point, distance, on_line, straight
 from floorcast_app.view_state import Look
 from floorplan_core.model import Region
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 FEWEST_CORNERS = 3
 AREA_KEY = "a"
+PARALLEL = 1e-3  # sine of the angle between two walls, up to which they are measured square
 
 
 class MeasureTool(TwoPointTool):
@@ -30,7 +31,7 @@ class MeasureTool(TwoPointTool):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self._wall: int | None = None  # axis of the wall that the first click lies on
+        self._wall: Point | None = None  # along the wall that the first click lies on
         self._corners: list[Point] | None = None  # of an area; None: distances are measured
         self._closed = False
         self._region: Region | None = None  # whose whole floor is measured
@@ -45,10 +46,10 @@ class MeasureTool(TwoPointTool):
 
     def aim(self, first: Point, at: At) -> Snap:
         snap = self.snap(at)
-        if self._wall is not None and snap.kind == "wall" and snap.axis == self._wall:
-            square = (snap.x, first[1]) if self._wall == 0 else (first[0], snap.y)
-            return Snap("wall", *square, self._wall)
-        return Snap(snap.kind, *straight(first, snap.xy), snap.axis) if at.shift else snap
+        if self._wall is not None and snap.along is not None and _parallel(snap.along, self._wall):
+            return Snap("wall", *on_line(first, (-self._wall[1], self._wall[0]), snap.xy), self._wall)
+        turn = self.source.turn_at(*first) if self.source is not None else 0.0
+        return Snap(snap.kind, *straight(first, snap.xy, turn), snap.along) if at.shift else snap
 
     def release(self, at: At, moved: bool) -> None:
         if moved:
@@ -59,7 +60,7 @@ class MeasureTool(TwoPointTool):
         first = not self.busy
         super().release(at, moved)
         if first and self._here is not None:
-            self._wall = self._here.axis if self._here.kind == "wall" else None
+            self._wall = self._here.along if self._here.kind == "wall" else None
 
     def double(self, at: At) -> bool:
         if self._corners is None:
@@ -159,3 +160,8 @@ def polygon_area(corners: tuple[Point, ...]) -> float:
     """
     ring = (*corners, corners[0])
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in itertools.pairwise(ring))) / 2
+
+
+def _parallel(u: Point, v: Point) -> bool:
+    """True for unit vectors of one line, either way."""
+    return abs(u[0] * v[1] - u[1] * v[0]) < PARALLEL

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeGuard
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from floorcast_app import format
 from floorcast_app.layers.snap_index import snap_offset
@@ -141,8 +143,9 @@ class SelectTool(Tool):
         if self._typed.metres is not None or source is None:
             return
         x, y = at.xy if at.shift else source.snaps.at(at.x, at.y, at.reach(SNAP)).xy
-        value = y if held.door.axis == 0 else x
         door = held.door
+        ((own_x, own_y),) = door.in_own(np.array([[x, y]])).tolist()
+        value = own_y if door.axis == 0 else own_x
         low, high = door.start + SHORTEST_DOOR, door.end - SHORTEST_DOOR
         held.value = max(value, low) if held.end else min(value, high)
 
@@ -160,12 +163,12 @@ class SelectTool(Tool):
         thing = self.workbench.find(items[0]) if len(items) == 1 else None
         if isinstance(thing, LayoutPlane):
             return PlaneDrag(thing, _middle(thing), thing.offset)
-        return DoorDrag(thing, 1, thing.end) if _can_be_dragged(thing) else None
+        return DoorDrag(thing, 1, thing.end) if isinstance(thing, Door) else None
 
     def _grip(self, at: At) -> PlaneDrag | DoorDrag | None:
         """Hold of what is selected, where the pointer is on it."""
         thing = self.workbench.find(self.workbench.selection.item)
-        if _can_be_dragged(thing):
+        if isinstance(thing, Door):
             ends = door_ends(thing, thing.start, thing.end)
             away = [distance(at.xy, end) for end in ends]
             k = away.index(min(away))
@@ -177,7 +180,7 @@ class SelectTool(Tool):
     def _grips(self) -> tuple[Mark, ...]:
         """Dots where a selected door can be taken hold of."""
         thing = self.workbench.find(self.workbench.selection.item)
-        if not _can_be_dragged(thing):
+        if not isinstance(thing, Door):
             return ()
         return (Mark("grips", door_ends(thing, thing.start, thing.end)),)
 
@@ -200,16 +203,10 @@ class SelectTool(Tool):
         self.workbench.try_run("correct.resize_door", door=held.door.id, start=a, end=b)
 
 
-def _can_be_dragged(thing: object) -> TypeGuard[Door]:
-    """True for doors, but for those of wings: corrections know the plan's own axes only."""
-    return isinstance(thing, Door) and thing.turn == 0.0
-
-
 def door_ends(door: Door, start: float, end: float) -> tuple[Point, Point]:
     """The points of a door's wall at two coordinates along it."""
-    if door.axis == 0:
-        return (door.offset, start), (door.offset, end)
-    return (start, door.offset), (end, door.offset)
+    (ax, ay), (bx, by) = replace(door, start=start, end=end).line().tolist()
+    return (ax, ay), (bx, by)
 
 
 def _span(held: DoorDrag) -> tuple[float, float]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 Point = tuple[float, float]  # metres, local frame
+UNSAID = (0.0, 0.0)  # a normal that was not said: of a wall along the building's own axes
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,7 @@ class AcceptDoor:
     """The door here is one, whatever its confidence (a lock)."""
 
     at: Point
+    normal: Point = UNSAID  # unit vector across its wall, either way: it tells in which wing the wall is
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,7 @@ class RejectDoor:
     """The door here is none: there is wall."""
 
     at: Point
+    normal: Point = UNSAID  # unit vector across its wall, either way
 
 
 @dataclass(frozen=True)

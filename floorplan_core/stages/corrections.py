@@ -17,6 +17,7 @@ import numpy as np
 
 from floorplan_core.model import LayoutPlane, ManhattanFrame
 from floorplan_core.model.corrections import (
+    UNSAID,
     AcceptDoor,
     AddDoor,
     AddWall,
@@ -109,13 +110,15 @@ def in_plan(corrections: Sequence[Correction], frame: ManhattanFrame) -> Said:
 def said_of_part(said: Said, part: int, turns: Sequence[float]) -> Said:
     """What of all that was said is about one part of a building, in the axes of that part.
 
-    A wall belongs to the part whose axes it is nearest to, by the angle; of two as near to the first. Doors
-    and the shapes of regions are said of the first part, the building, only.
+    Shapes and names of regions are said of the whole plan.
 
     :param turns: radians from the plan's axes to those of each part, that of the building (0) first.
     """
-    walls = tuple(turned_back(c, turns[part]) for c in said.walls if _part_of(c, turns) == part)
-    return replace(said, walls=walls) if part == 0 else Said(walls=walls)
+
+    def own(corrections: Sequence[Correction]) -> tuple[Correction, ...]:
+        return tuple(turned_back(c, turns[part]) for c in corrections if part_of(c, turns) == part)
+
+    return Said(walls=own(said.walls), doors=own(said.doors))
 
 
 def turned_back(correction: Correction, turn: float) -> Correction:
@@ -128,13 +131,19 @@ def turned_back(correction: Correction, turn: float) -> Correction:
     return moved
 
 
-def _part_of(correction: Any, turns: Sequence[float]) -> int:
-    """The part to whose axes a wall is nearest."""
-    if isinstance(correction, AddWall):
+def part_of(correction: Any, turns: Sequence[float]) -> int:
+    """The part to whose axes a wall, a door's wall or a line drawn is nearest; of two as near the first.
+
+    The first one, too, for a door of which was not said how its wall stands.
+    """
+    if isinstance(correction, AddWall | AddDoor | ResizeDoor | SplitRegion):
         (x0, y0), (x1, y1) = correction.start, correction.end
-        angle = math.atan2(y1 - y0, x1 - x0)
+        across = x1 - x0, y1 - y0
     else:
-        angle = math.atan2(correction.plane.normal[1], correction.plane.normal[0])
+        across = getattr(correction, "normal", None) or correction.plane.normal
+    if across == UNSAID:
+        return 0
+    angle = math.atan2(across[1], across[0])
     quarter = math.pi / 2
     away = [abs((angle - turn + quarter / 2) % quarter - quarter / 2) for turn in turns]
     return min(range(len(turns)), key=lambda k: (round(away[k], 9), k))

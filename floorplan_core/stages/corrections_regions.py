@@ -25,7 +25,15 @@ from floorplan_core.model.corrections import (
     Point,
     SplitRegion,
 )
-from floorplan_core.stages.corrections import NOTHING, REACH, Remarks, line_of, place, without
+from floorplan_core.model.layout import turned
+from floorplan_core.stages.corrections import (
+    NOTHING,
+    REACH,
+    Remarks,
+    line_of,
+    place,
+    without,
+)
 from floorplan_core.stages.region_names import ID_PREFIX, next_number
 from floorplan_core.stages.region_sides import WallSurfaces
 from floorplan_core.stages.regions import make_region
@@ -39,6 +47,7 @@ _INSIDE = 0.1  # m inside a merged region, from where a wall would part it
 Regions = tuple[Region, ...]
 Planes = tuple[LayoutPlane, ...]
 Remake = Callable[[Any, Region], Region]  # another polygon for a region: its sides and counts follow
+Close = Callable[[Any, float], Any]
 
 
 @dataclass(frozen=True)
@@ -65,11 +74,11 @@ def correct_shapes(
 
     for correction in corrections:
         if isinstance(correction, MergeRegions):
-            regions, taken, remarks = _merge(regions, correction, remake)
-            planes = planes if taken is None else _opened(planes, taken)
+            regions, taken, remarks = merge(regions, correction, remake)
+            planes = planes if taken is None else opened(planes, taken)
         else:
             assert isinstance(correction, SplitRegion)
-            regions, remarks = _split(regions, correction, config.min_area, remake)
+            regions, remarks = split(regions, correction, config.min_area, remake)
         said += remarks
     return regions, planes, said
 
@@ -85,8 +94,13 @@ def find_region(regions: Sequence[Region], at: Point) -> Region | None:
     return best[2] if best is not None and best[0] <= REACH else None
 
 
-def _merge(regions: Regions, correction: MergeRegions, remake: Remake) -> tuple[Regions, Any | None, Remarks]:
-    """The regions with some made one, and the polygon of that one."""
+def merge(
+    regions: Regions, correction: MergeRegions, remake: Remake, close: Close = close_polygon
+) -> tuple[Regions, Any | None, Remarks]:
+    """The regions with some made one, and the polygon of that one.
+
+    :param close: fills the gaps between polygons that are narrower than so many metres.
+    """
     found = [find_region(regions, at) for at in correction.at]
     if None in found:
         where = place(correction.at[found.index(None)])
@@ -95,7 +109,7 @@ def _merge(regions: Regions, correction: MergeRegions, remake: Remake) -> tuple[
     if len(chosen) < 2:
         return regions, None, NOTHING  # they are one already
     parts = [r for r in regions if r.id in chosen]
-    whole = _union([r.polygon for r in parts], [r.polygon for r in regions if r.id not in chosen])
+    whole = _union([r.polygon for r in parts], [r.polygon for r in regions if r.id not in chosen], close)
     if whole is None:
         names = " and ".join(r.name for r in parts)
         return regions, None, Remarks(warnings=(f"Regions {names} do not touch: they cannot be merged.",))
@@ -110,10 +124,10 @@ def _with(word: str, *regions: Region) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*(w for r in regions for w in r.by_hand), word)))
 
 
-def _union(parts: Sequence[Any], others: Sequence[Any]) -> Any | None:
+def _union(parts: Sequence[Any], others: Sequence[Any], close: Close) -> Any | None:
     """One polygon of the parts and the wall between them; None where they do not touch."""
-    inside = shapely.union_all([close_polygon(p, _THICKEST) for p in parts])
-    between = close_polygon(shapely.union_all(parts), _THICKEST).difference(
+    inside = shapely.union_all([close(p, _THICKEST) for p in parts])
+    between = close(shapely.union_all(parts), _THICKEST).difference(
         shapely.union_all([inside, *others], grid_size=_GRID), grid_size=_GRID
     )
     joints = [g for g in polygons_of(between) if sum(g.distance(p) < _TOUCH for p in parts) > 1]
@@ -121,7 +135,7 @@ def _union(parts: Sequence[Any], others: Sequence[Any]) -> Any | None:
     return whole if whole.geom_type == "Polygon" else None
 
 
-def _opened(planes: Planes, merged: Any) -> Planes:
+def opened(planes: Planes, merged: Any) -> Planes:
     """The planes without their walls inside a merged region."""
     core = merged.buffer(-_INSIDE, join_style="mitre")
     return tuple(_without_inside(p, core) for p in planes)
@@ -139,10 +153,14 @@ def _without_inside(plane: LayoutPlane, core: Any) -> LayoutPlane:
     return plane if walls is plane.walls else replace(plane, walls=walls)
 
 
-def _split(
-    regions: Regions, correction: SplitRegion, least: float, remake: Remake
+def split(
+    regions: Regions, correction: SplitRegion, least: float, remake: Remake, turn: float = 0.0
 ) -> tuple[Regions, Remarks]:
-    """The regions with one of them cut along a line, from side to side."""
+    """The regions with one of them cut along a line, from side to side.
+
+    :param least: m2 of each part.
+    :param turn: radians from the plan's axes to those that the line is drawn along.
+    """
     where = place(correction.start)
     drawn = shapely.LineString([correction.start, correction.end])
     crossed = [(drawn.intersection(r.polygon).length, -k) for k, r in enumerate(regions)]
@@ -150,7 +168,7 @@ def _split(
     if longest <= 0:
         return regions, Remarks(warnings=(f"The line drawn at {where} splits no region.",))
     region = regions[-k]
-    parts = _cut(region.polygon, correction)
+    parts = _cut(region.polygon, correction, turn)
     if len(parts) < 2 or min(p.area for p in parts) < least:
         problem = f"The line drawn at {where} does not part region {region.name} in two of {least:g} m2."
         return regions, Remarks(warnings=(problem,))
@@ -171,26 +189,35 @@ def _parted(regions: Regions, region: Region, parts: Sequence[Any], remake: Rema
     return (*regions[:at], *new, *regions[at + 1 :])
 
 
-def _cut(polygon: Any, line: SplitRegion) -> list[Any]:
+def _cut(polygon: Any, line: SplitRegion, turn: float) -> list[Any]:
     """The parts of a polygon on the sides of the chords that a drawn line lies on."""
-    from shapely.ops import split
+    from shapely.ops import split as split_by
 
-    axis, offset, (low, high) = line_of(line.start, line.end)
+    pieces = [polygon]
+    (x0, y0), (x1, y1) = turned(np.array([line.start, line.end]), -turn).tolist()
+    for chord in _chords(polygon if turn == 0.0 else _turned(polygon, -turn), (x0, y0), (x1, y1)):
+        a, b = turned(shapely.get_coordinates(chord), turn)
+        step = _GRID * 10 * (b - a) / np.linalg.norm(b - a)  # beyond the sides, so that it surely crosses
+        cutter = shapely.LineString([a - step, b + step])
+        pieces = [q for p in pieces for q in split_by(p, cutter).geoms]
+    return [shapely.set_precision(p, _GRID) for p in pieces]
+
+
+def _turned(shape: Any, turn: float) -> Any:
+    return shapely.transform(shape, lambda xy: turned(xy, turn))
+
+
+def _chords(polygon: Any, start: Point, end: Point) -> list[Any]:
+    """From side to side of a polygon, along the axis-parallel line that two clicks mean."""
+    axis, offset, (low, high) = line_of(start, end)
     along = 1 - axis
     x0, y0, x1, y1 = polygon.bounds
     ends = [(offset, y0 - 1), (offset, y1 + 1)] if axis == 0 else [(x0 - 1, offset), (x1 + 1, offset)]
-    chords = [
+    return [
         c
         for c in shapely.get_parts(polygon.intersection(shapely.LineString(ends)))
         if c.length > 0 and min(c.bounds[along + 2], high) - max(c.bounds[along], low) > 0
     ]
-    pieces = [polygon]
-    for chord in chords:
-        a, b = (np.array(e) for e in (chord.coords[0], chord.coords[-1]))
-        step = _GRID * 10 * (b - a) / np.linalg.norm(b - a)  # beyond the sides, so that it surely crosses
-        cutter = shapely.LineString([a - step, b + step])
-        pieces = [q for p in pieces for q in split(p, cutter).geoms]
-    return [shapely.set_precision(p, _GRID) for p in pieces]
 
 
 def correct_names(regions: Regions, corrections: Sequence[Correction]) -> tuple[Regions, Remarks]:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import FREE, Door, LayoutPlane, OccupancyGrid, Region, RegionSide
+from floorplan_core.model.corrections import Point
 from floorplan_core.model.layout import turned
 from floorplan_core.stages.regions import region_of
 
@@ -51,7 +52,7 @@ class PartLayout:
 def join_regions(parts: Sequence[PartLayout], least: float) -> tuple[Region, ...]:
     """The regions of all parts in the axes of the plan, disjoint, in reading order; at least ``least`` m2."""
     found = [
-        (turned_region(region, part.turn, k), part, _walls_of(other for other in parts if other is not part))
+        (turned_region(region, part.turn, k), part, walls_of(other for other in parts if other is not part))
         for k, part in enumerate(parts)
         for region in part.regions
     ]
@@ -70,8 +71,11 @@ def join_regions(parts: Sequence[PartLayout], least: float) -> tuple[Region, ...
     return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(done))
 
 
-def join_doors(parts: Sequence[PartLayout]) -> tuple[Door, ...]:
-    """The doors of all parts; one that two found is that which is surer."""
+def join_doors(parts: Sequence[PartLayout], rejected: Sequence[Point] = ()) -> tuple[Door, ...]:
+    """The doors of all parts; one that two found is that which is surer.
+
+    :param rejected: places in the plan where a person said that there is none: none that another part found.
+    """
     doors = [
         replace(
             d, id=named(d.id, k), planes=tuple(named(p, k) for p in d.planes), turn=part.turn, connects=()
@@ -79,14 +83,19 @@ def join_doors(parts: Sequence[PartLayout]) -> tuple[Door, ...]:
         for k, part in enumerate(parts)
         for d in part.doors
     ]
+    doors = [d for d in doors if d.by_hand or not _is_near(d, rejected)]
     kept: list[Door] = []
     for door in sorted(doors, key=lambda d: -d.confidence):
-        middle = door.line().mean(axis=0)
         others = [d.line().mean(axis=0) for d in kept if d.turn != door.turn]
-        if all(np.hypot(*(middle - other)) > _SAME_DOOR for other in others):
+        if not _is_near(door, others):
             kept.append(door)
     chosen = {d.id for d in kept}
     return tuple(d for d in doors if d.id in chosen)
+
+
+def _is_near(door: Door, places: Sequence[Float | Point]) -> bool:
+    middle = door.line().mean(axis=0)
+    return any(np.hypot(*(middle - place)) <= _SAME_DOOR for place in places)
 
 
 def join_grids(whole: OccupancyGrid, parts: Sequence[PartLayout], cells: Sequence[NDArray[np.bool_]]) -> Any:
@@ -127,7 +136,7 @@ def turned_region(region: Region, turn: float, part: int) -> Region:
     return replace(region, polygon=polygon, sides=tuple(map(side, region.sides)), rectangles=None)
 
 
-def _walls_of(parts: Iterable[PartLayout]) -> Any:
+def walls_of(parts: Iterable[PartLayout]) -> Any:
     """The faces of the walls of parts, in the axes of the plan, as lines a little longer than they are."""
     lines = []
     for part in parts:
@@ -166,7 +175,7 @@ def _cut(
         free, total = _cells(piece, part)
         if piece.area >= least and free > _LEAST_FLOOR * total:
             tidy = shapely.orient_polygons(piece.simplify(_STRAIGHT))
-            made = region_of(tidy, None, _sides(tidy, region.sides, walls), free, total)
+            made = region_of(tidy, None, sides_between(tidy, region.sides, walls), free, total)
             out.append((replace(made, height=region.height), part, walls))
     return out
 
@@ -214,7 +223,7 @@ def _window(polygon: Any, part: PartLayout) -> Any:
     return polygon_window(own, part.grid.origin, part.grid.cell, part.grid.states.shape)
 
 
-def _sides(polygon: Any, before: Sequence[RegionSide], walls: Any) -> tuple[RegionSide, ...]:
+def sides_between(polygon: Any, before: Sequence[RegionSide], walls: Any) -> tuple[RegionSide, ...]:
     """The sides of what is left: as they were, or along the wall that cut them."""
     rings = ((polygon.exterior, False), *((ring, True) for ring in polygon.interiors))
     return tuple(

@@ -71,10 +71,6 @@
    <translation>Eine Tür kann nicht {0} m breit sein.</translation>
   </message>
   <message>
-   <source>A door in a wing at another angle cannot be drawn.</source>
-   <translation>In einem schräg stehenden Flügel lässt sich keine Tür zeichnen.</translation>
-  </message>
-  <message>
    <source>A door is a 'door' or an 'opening', not {0}.</source>
    <translation>Eine Tür ist „door“ oder „opening“, nicht {0}.</translation>
   </message>

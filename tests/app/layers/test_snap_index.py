@@ -26,7 +26,7 @@ def test_a_wall_keeps_the_coordinate_along_it(drawn):
     at[axis] += 0.004
     snap = snaps.wall(*at, 0.05)
     assert snap is not None
-    assert snap.axis == axis
+    assert snap.along == ((0.0, 1.0), (1.0, 0.0))[axis]
     assert snap.xy[1 - axis] == pytest.approx(at[1 - axis])
     assert abs(snap.xy[axis] - (x0, y0)[axis]) < 0.05
 
