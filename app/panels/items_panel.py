@@ -12,7 +12,7 @@ from floorcast_app.panels.by_hand import is_locked
 from floorcast_app.panels.filter_field import FilterField
 from floorcast_app.panels.item_columns import things
 from floorcast_app.panels.item_menu import item_menu
-from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, LOCKABLE, OWN, ItemFilter, ItemModel
+from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, LOCKABLE, OWN, ItemModel
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
@@ -34,9 +34,8 @@ class ItemTable(QTableView):
         super().__init__(parent)
         self.kind, self._workbench = kind, workbench
         self.rows = ItemModel(workbench, kind, self)
-        self.filter = ItemFilter(self)
-        self.filter.setSourceModel(self.rows)
-        self.setModel(self.filter)
+        self.setModel(self.rows)
+        self.rows.modelReset.connect(self.follow)
         self._dress()
         self.sortByColumn(OWN, Qt.SortOrder.AscendingOrder)
         self.clicked.connect(self._clicked)
@@ -114,7 +113,7 @@ class ItemTable(QTableView):
 
     def _index_of(self, item: Item) -> QModelIndex:
         at = self.rows.row_of(item)
-        return self.filter.mapFromSource(self.rows.index(at, OWN)) if at >= 0 else QModelIndex()
+        return self.rows.index(at, OWN) if at >= 0 else QModelIndex()
 
     def _picked(self) -> None:
         """Rows were selected by mouse or keys: the whole application follows."""
@@ -210,8 +209,7 @@ class ListPanel(Panel):
                 dock.raise_()
 
     def _filter(self, text: str) -> None:
-        self.table.filter.set_text(text)
-        self.table.follow()
+        self.table.rows.set_filter(text)
 
     def _look_changed(self, before: Look, after: Look) -> None:
         if before.units != after.units:

@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from floorcast_app.panels.filter_field import SMALL, WIDE
 from floorcast_app.panels.item_columns import COLUMNS, natural
-from floorcast_app.panels.item_model import EYE, LOCK, OWN, ItemModel
+from floorcast_app.panels.item_model import EYE, ITEM_ROLE, LOCK, OWN, ItemModel
 from floorcast_app.panels.items_panel import DoorList, ItemTable, ListPanel, PlaneList, RegionList
 from floorcast_app.panels.warnings_panel import WarningsPanel
 from floorcast_app.selection import Item
@@ -126,6 +126,33 @@ def test_a_click_on_a_heading_sorts(regions: ListPanel, qtbot: QtBot) -> None:
     qtbot.mouseClick(header.viewport(), LEFT, pos=at)
     areas = [float(t.removesuffix(" m²")) for t in _texts(table, OWN + 2)]
     assert areas in (sorted(areas), sorted(areas, reverse=True))
+
+
+def test_a_selection_outlives_order_and_filter(regions: ListPanel) -> None:
+    table, selection = regions.table, regions.workbench.selection
+
+    def chosen() -> list[Item]:
+        return [index.data(ITEM_ROLE) for index in table.selectionModel().selectedRows(OWN)]
+
+    item = table.model().index(3, OWN).data(ITEM_ROLE)
+    selection.select(item)
+    table.sortByColumn(OWN + 2, Qt.SortOrder.DescendingOrder)
+    assert chosen() == [item] and selection.item == item
+    regions.search.setText("no such words")
+    assert table.model().rowCount() == 0 and selection.item == item
+    regions.search.setText("")
+    assert chosen() == [item]
+    selection.select(None)
+
+
+def test_rows_in_the_order_of_their_eyes_follow_them(regions: ListPanel) -> None:
+    table, view = regions.table, regions.workbench.view
+    last = table.rows.item(table.model().rowCount() - 1)
+    table.sortByColumn(EYE, Qt.SortOrder.DescendingOrder)
+    view.set(hidden=frozenset({(last.kind, last.id)}))
+    assert table.rows.item(0) == last
+    view.set(hidden=frozenset())
+    table.sortByColumn(OWN, Qt.SortOrder.AscendingOrder)
 
 
 def test_numbers_stand_at_the_right(regions: ListPanel) -> None:
