@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
-from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtGui import QGuiApplication, QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QPushButton, QToolButton
 
@@ -30,8 +30,11 @@ def icon(name: str, colour: str = "") -> QIcon:
 
 
 def pixmap(name: str, size: int, colour: str = "") -> QPixmap:
-    """The icon as a picture of ``size`` x ``size`` pixels."""
-    return _drawn(name, size, colour or theme.colours().text)
+    """The icon as a picture of ``size`` x ``size`` pixels, as fine as the finest screen."""
+    ratio = finest_ratio()
+    made = QPixmap(_drawn(name, round(size * ratio), colour or theme.colours().text))
+    made.setDevicePixelRatio(ratio)
+    return made
 
 
 def set_icon(target: Any, name: str, colour_role: str = "text") -> None:
@@ -63,6 +66,12 @@ def _icon(name: str, colour: str, faint: str, gap: int = 0) -> QIcon:
         for inked, mode in ((colour, QIcon.Mode.Normal), (faint, QIcon.Mode.Disabled)):
             made.addPixmap(_padded(_drawn(name, size, inked), gap * size // BUTTON), mode)
     return made
+
+
+def finest_ratio() -> float:
+    """Device pixels for a pixel, on the screen that has most of them."""
+    app = QGuiApplication.instance()
+    return app.devicePixelRatio() if isinstance(app, QGuiApplication) else 1.0
 
 
 @lru_cache(maxsize=512)

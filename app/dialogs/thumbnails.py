@@ -16,14 +16,19 @@ KEPT_SIZE = (504, 312)  # px: three times a card, for dense displays
 DELAY = 600  # ms after a plan, so that it was brought into view
 
 
-def thumbnail(path: Path, size: QSize) -> QPixmap | None:
-    """The picture of the plan of ``path``, scaled into ``size``; None where there is none."""
+def thumbnail(path: Path, size: QSize, ratio: float = 1.0) -> QPixmap | None:
+    """The picture of the plan of ``path``, scaled into ``size``; None where there is none.
+
+    :param ratio: device pixels for a pixel of ``size``.
+    """
     data = _inside(path) or _kept(path)
     image = QImage.fromData(data) if data else QImage()
     if image.isNull():
         return None
     mode = Qt.AspectRatioMode.KeepAspectRatio
-    return QPixmap.fromImage(image.scaled(size, mode, Qt.TransformationMode.SmoothTransformation))
+    made = QPixmap.fromImage(image.scaled(size * ratio, mode, Qt.TransformationMode.SmoothTransformation))
+    made.setDevicePixelRatio(ratio)
+    return made
 
 
 def keep_thumbnail(path: Path, image: QImage) -> None:

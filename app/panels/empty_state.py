@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 DROP_SIZE = (560, 240)  # px
 CARD = QSize(168, 104)  # px of a thumbnail
+MARK = 32  # px of an icon by itself
 CARDS_A_ROW = 3
 MOST_CARDS = 6
 
@@ -147,11 +148,13 @@ class DropZone(QFrame):
         self.style().polish(self)
 
     def _tint(self) -> None:
-        self._mark.setPixmap(icons.pixmap("upload", 32, theme.colours().accent))
+        self._mark.setPixmap(icons.pixmap("upload", MARK, theme.colours().accent))
 
 
 def _card_picture(path: Path) -> QIcon:
-    picture = QPixmap(CARD)
+    ratio = icons.finest_ratio()
+    picture = QPixmap(CARD * ratio)
+    picture.setDevicePixelRatio(ratio)
     picture.fill(Qt.GlobalColor.transparent)
     painter = QPainter(picture)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -159,12 +162,12 @@ def _card_picture(path: Path) -> QIcon:
     frame.addRoundedRect(0, 0, CARD.width(), CARD.height(), 6, 6)
     painter.fillPath(frame, QColor(theme.colours().raised))
     painter.setClipPath(frame)
-    plan = thumbnail(path, CARD)
-    if plan is None:
-        mark = icons.pixmap("folder" if path.is_dir() else "box", 32, theme.colours().muted)
-        painter.drawPixmap((CARD.width() - 32) // 2, (CARD.height() - 32) // 2, mark)
-    else:
-        painter.drawPixmap((CARD.width() - plan.width()) // 2, (CARD.height() - plan.height()) // 2, plan)
+    mark = "folder" if path.is_dir() else "box"
+    shown = thumbnail(path, CARD, ratio) or icons.pixmap(mark, MARK, theme.colours().muted)
+    size = shown.deviceIndependentSize()
+    painter.drawPixmap(
+        round((CARD.width() - size.width()) / 2), round((CARD.height() - size.height()) / 2), shown
+    )
     painter.end()
     return QIcon(picture)
 

@@ -88,8 +88,9 @@ def _count(n: int, noun: str) -> str:
 def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
     """Text and swatch attributes, in reading order down the columns."""
     fine = {"stroke": palette.GREY, "stroke_width": 0.1}
-    others = sorted({r.label for r in plan.regions} - set(palette.TONES))
-    floors = [("Room", palette.ROOM), ("Corridor", palette.CORRIDOR)]
+    labels = {r.label for r in plan.regions}
+    others = sorted(labels - set(palette.TONES))
+    floors = [(label.capitalize(), tone) for label, tone in palette.TONES.items() if label in labels]
     floors += [(", ".join(others).capitalize(), palette.OTHER)] if others else []
     dashed = {"stroke": palette.WALL, "stroke_width": 0.13, "stroke_dasharray": "1.1 0.7"}
     return [
@@ -108,7 +109,7 @@ def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: 
         canvas.text("Legend", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         entries, doors = legend_entries(plan), door_kinds(plan)
         half = _width(sheet, 1) / 2
-        pitch = min(LEGEND_ROW, LEGEND_DEPTH / (len(entries) + len(doors) - SIGNS))
+        pitch = min(LEGEND_ROW, LEGEND_DEPTH / max(len(entries) + len(doors) - SIGNS, SIGNS))
         size = SWATCH[0], min(SWATCH[1], pitch - LEGEND_AIR)
         for i, (text, look) in enumerate(entries):
             second = i >= SIGNS
@@ -124,8 +125,13 @@ def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: 
 
 
 def door_kinds(plan: FloorPlan) -> list[str]:
-    """What the legend says of doors: a door stood shut only where one did."""
-    return ["Door", *(["Door, found shut"] if any(d.shut for d in plan.doors) else []), "Opening"]
+    """What the legend says of doors: only what the plan has."""
+    there = {
+        "Door": any(d.kind == "door" and not d.shut for d in plan.doors),
+        "Door, found shut": any(d.shut for d in plan.doors),
+        "Opening": any(d.kind == "opening" for d in plan.doors),
+    }
+    return [kind for kind, shown in there.items() if shown]
 
 
 def _draw_word(

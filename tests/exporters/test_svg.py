@@ -230,3 +230,16 @@ def test_text_has_whole_sizes_for_viewers_that_cut_off_the_rest() -> None:
         scale = re.search(r"scale\(([\d.]+)\)", place)
         assert scale is not None and size >= 20
         assert 1.0 < size * float(scale[1]) < 5.0  # mm
+
+
+def test_the_legend_explains_only_what_is_drawn() -> None:
+    plan = small_flat()
+    rooms = tuple(replace(r, label="room") for r in plan.regions)
+    without = texts(group(parse(replace(plan, regions=rooms, doors=())), "legend"))
+    assert "Room" in without
+    assert not {"Corridor", "Door", "Opening"} & set(without)
+    assert {"Corridor"} <= set(texts(group(parse(replace(plan, regions=_relabelled(plan))), "legend")))
+
+
+def _relabelled(plan: Any) -> Any:
+    return (replace(plan.regions[0], label="corridor"), *plan.regions[1:])
