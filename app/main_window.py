@@ -25,6 +25,7 @@ from floorcast_app.dock_layout import Proportions, TitleBars, arrange, tab_bars
 from floorcast_app.dressing import Dresser
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
+from floorcast_app.panels.missing_banner import MissingBanner
 from floorcast_app.panels.recovery_banner import RecoveryBanner
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.toast import Toast
@@ -54,7 +55,7 @@ MENU_GROUPS = (  # actions that begin a group of their menu
     "help.about",
 )  # fmt: skip
 SUBMENUS = {"view.layer_": "Layers", "view.colour_": "Points by colour"}  # ids that begin so, and their menu
-DOCKS = 2  # version of the arrangement: one that was kept of other docks or bars is not taken
+DOCKS = 3  # version of the arrangement: one that was kept of other docks or bars is not taken
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
 
@@ -85,8 +86,9 @@ class MainWindow(QMainWindow):
         self.toast = Toast(self)
         self.banner = None if unattended else AssumptionsBanner(workbench, self)
         self.empty = EmptyState(workbench, self.recent, self)
+        self.missing = None if unattended else MissingBanner(workbench, self)
         self.recovery = None if unattended else RecoveryBanner(workbench, self)
-        for banner in (self.banner, self.recovery):
+        for banner in (self.banner, self.missing, self.recovery):
             if banner is not None:
                 banner.moved.connect(lambda: self.empty.cover(self))
         workbench.ui = QtInterface(self)
@@ -243,7 +245,7 @@ class MainWindow(QMainWindow):
         kept = self._settings.value(f"workspace/{workspace}")
         before = [bar for bar in tab_bars(self) if bar.count()]
         restored = isinstance(kept, QByteArray) and self.restoreState(kept, DOCKS)
-        for banner in (self.banner, self.recovery):
+        for banner in (self.banner, self.missing, self.recovery):
             if banner is not None:
                 banner.put_right()
         if not restored:

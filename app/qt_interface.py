@@ -35,6 +35,7 @@ class QtInterface:
         }
 
     def ask_open(self, title: str, filters: str) -> Path | None:
+        self._needs_somebody(title)
         if filters == "folder":
             chosen = QFileDialog.getExistingDirectory(self._window, tr(title))
         else:
@@ -42,6 +43,7 @@ class QtInterface:
         return Path(chosen) if chosen else None
 
     def ask_save(self, title: str, filters: str, suggested: str) -> Path | None:
+        self._needs_somebody(title)
         patterns = export_filters() if filters == "export" else filters
         chosen, used = QFileDialog.getSaveFileName(
             self._window, tr(title), suggested, patterns, _filter_of(suggested, patterns)
@@ -49,6 +51,7 @@ class QtInterface:
         return _with_suffix(Path(chosen), used) if chosen else None
 
     def ask_text(self, title: str, label: str, text: str) -> str | None:
+        self._needs_somebody(title)
         box = QInputDialog(self._window)
         box.setWindowTitle(tr(title))
         box.setLabelText(tr(label))
@@ -69,6 +72,11 @@ class QtInterface:
         box.setStandardButtons(QMessageBox.StandardButton.Discard | QMessageBox.StandardButton.Cancel)
         box.setDefaultButton(QMessageBox.StandardButton.Cancel)
         return bool(box.exec() == QMessageBox.StandardButton.Discard)
+
+    def _needs_somebody(self, title: str) -> None:
+        """A script would wait for ever for an answer."""
+        if self._window.unattended:
+            raise UsageError(f"{title}: give it as an argument; a script has nobody to ask.")
 
     def tell(self, text: str, kind: str = "info") -> None:
         self._window.tell(text, kind)

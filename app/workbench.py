@@ -67,6 +67,7 @@ class Workbench:
         self.points_changed = Event()  # () more points to show, or none
         self.tool_changed = Event()  # (tool)
         self.survey_changed = Event()  # () another survey, or none
+        self.input_missing = Event()  # (path) the survey of a project that was opened is not where it was
         self.pointer_moved = Event()  # (x, y) metres, manhattan frame; (None, None) outside the panes
         self.recent_changed = Event()  # (Path) it was opened or saved
         self.log: list[dict[str, Any]] = []  # the actions that were run, for a script that does it again
@@ -236,7 +237,7 @@ class Workbench:
         for missing in loaded.missing:
             self.ui.tell(f"{missing.name} is not where it was; say where it lies now.", "warning")
         if state.survey is not None and state.survey.path in loaded.missing:
-            self.try_run("file.relocate")
+            self.input_missing.emit(state.survey.path)
 
     def save_project(self, path: Path) -> None:
         """Save the document; whole or not at all."""

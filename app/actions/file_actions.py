@@ -76,7 +76,7 @@ def save_as(workbench: Workbench, path: str | Path | None = None) -> None:
     target = (
         Path(path)
         if path is not None
-        else workbench.ui.ask_save("Save the project", f"*{PROJECT_SUFFIX}", suggested)
+        else workbench.ui.ask_save("Save the project", f"Floorcast (*{PROJECT_SUFFIX})", suggested)
     )
     if target is not None:
         save(workbench, target if target.suffix else target.with_suffix(PROJECT_SUFFIX))
@@ -147,7 +147,7 @@ def save_recording(workbench: Workbench, path: str | Path | None = None) -> None
     target = (
         Path(path)
         if path is not None
-        else workbench.ui.ask_save("Save the session as a script", "*.json", "session.json")
+        else workbench.ui.ask_save("Save the session as a script", "JSON (*.json)", "session.json")
     )
     if target is not None:
         done = [entry for entry in workbench.log if entry["action"] not in NOT_RECORDED]
@@ -181,9 +181,8 @@ def relocate(workbench: Workbench, path: str | Path | None = None) -> None:
     survey = workbench.state.survey
     if survey is None:
         raise UsageError("There is no survey to look for.")
-    found = (
-        Path(path) if path is not None else workbench.ui.ask_open(f"Where is {survey.path.name}?", "survey")
-    )
+    kind = "survey" if survey.path.suffix else "folder"
+    found = Path(path) if path is not None else workbench.ui.ask_open(f"Where is {survey.path.name}?", kind)
     if found is not None:
         workbench.relocate(found)
 

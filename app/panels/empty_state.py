@@ -23,6 +23,7 @@ from floorcast_app.dialogs.thumbnails import ThumbnailKeeper, thumbnail
 from floorcast_app.panels.base import GRID, clear, column, label, listener_of, row
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
+from floorplan_core.project_file import SUFFIX
 
 if TYPE_CHECKING:
     from floorcast_app.recent import RecentFiles
@@ -32,6 +33,7 @@ CARD = QSize(168, 104)  # px of a thumbnail
 MARK = 32  # px of an icon by itself
 CARDS_A_ROW = 3
 MOST_CARDS = 6
+TWO_ROWS = 760  # px of height from which two rows of cards stand below the drop zone
 
 
 class EmptyState(QWidget):
@@ -68,7 +70,10 @@ class EmptyState(QWidget):
         """Lie over everything between the toolbar and the status bar of ``window``."""
         top = max((bar.geometry().bottom() + 1 for bar in _bars(window)), default=0)
         bottom = window.statusBar().height() if window.statusBar().isVisible() else 0
+        tall = self.height() >= TWO_ROWS
         self.setGeometry(0, top, window.width(), max(0, window.height() - top - bottom))
+        if tall != (self.height() >= TWO_ROWS):
+            self.refresh()
 
     def showEvent(self, event: object) -> None:
         self.refresh()
@@ -77,7 +82,7 @@ class EmptyState(QWidget):
     def refresh(self) -> None:
         """Look anew at the recent files."""
         clear(self._cards)
-        paths = self._recent.paths()[:MOST_CARDS]
+        paths = self._recent.paths()[: MOST_CARDS if self.height() >= TWO_ROWS else CARDS_A_ROW]
         self._heading.setVisible(bool(paths))
         for i, path in enumerate(paths):
             self._cards.addWidget(self._card(path), i // CARDS_A_ROW, i % CARDS_A_ROW)
@@ -89,8 +94,9 @@ class EmptyState(QWidget):
         card.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         card.setIconSize(CARD)
         card.setIcon(_card_picture(path))
-        shown = card.fontMetrics().elidedText(path.name, Qt.TextElideMode.ElideMiddle, CARD.width())
+        shown = card.fontMetrics().elidedText(_name(path), Qt.TextElideMode.ElideMiddle, CARD.width())
         card.setText(shown)
+        card.setMinimumHeight(card.sizeHint().height())  # its name is never cut off
         card.setToolTip(str(path))
         card.clicked.connect(lambda: self._workbench.try_run("file.open", path=path))
         return card
@@ -149,6 +155,11 @@ class DropZone(QFrame):
 
     def _tint(self) -> None:
         self._mark.setPixmap(icons.pixmap("upload", MARK, theme.colours().accent))
+
+
+def _name(path: Path) -> str:
+    """Many surveys are called points.ply: their folder tells them apart."""
+    return path.name if path.suffix.lower() == SUFFIX or path.is_dir() else f"{path.parent.name}/{path.name}"
 
 
 def _card_picture(path: Path) -> QIcon:

@@ -783,6 +783,10 @@
    <translation>Vom Boden zur Decke</translation>
   </message>
   <message>
+   <source>Floorcast (*{0})</source>
+   <translation>Floorcast (*{0})</translation>
+  </message>
+  <message>
    <source>Floorcast did not end well. {title} was kept as it was at {when}.</source>
    <translation>Floorcast wurde unerwartet beendet. {title} ist auf dem Stand von {when} erhalten.</translation>
   </message>
@@ -3451,6 +3455,10 @@
    <translation>{0}, {1} breit, {2} sicher</translation>
   </message>
   <message>
+   <source>{0}: give it as an argument; a script has nobody to ask.</source>
+   <translation>{0}: als Argument angeben; ein Skript kann niemanden fragen.</translation>
+  </message>
+  <message>
    <source>{0}: give it as an argument; there is nobody to ask.</source>
    <translation>{0}: bitte als Argument angeben; es ist niemand zu fragen.</translation>
   </message>
@@ -3469,6 +3477,10 @@
   <message>
    <source>{low} to {high}</source>
    <translation>{low} bis {high}</translation>
+  </message>
+  <message>
+   <source>{name} is not where it was, in {folder}. Corrections and checks wait until it is found.</source>
+   <translation>{name} ist nicht mehr in {folder}. Korrekturen und Kontrollmaße warten, bis sie gefunden ist.</translation>
   </message>
   <message>
    <source>{n} of {total}</source>

@@ -5,9 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QSettings, Qt, QUrl
 from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QAbstractItemView, QDockWidget, QLineEdit, QMainWindow, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QDockWidget,
+    QLineEdit,
+    QMainWindow,
+    QPushButton,
+    QToolButton,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from floorcast_app.jobs import Progress
@@ -16,10 +24,12 @@ from floorcast_app.panels.check_model import DIFFERENCE, LASER, NOTE
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.ground_truth_panel import GroundTruthPanel
 from floorcast_app.panels.history_panel import HistoryPanel
+from floorcast_app.panels.missing_banner import MissingBanner
 from floorcast_app.panels.status import StatusBar
 from floorcast_app.panels.timeline_panel import TimelinePanel
 from floorcast_app.panels.toast import Toast
 from floorcast_app.panels.warnings_panel import WarningsPanel
+from floorcast_app.recent import RecentFiles
 from floorcast_app.run_replay import Snapshot
 from floorcast_app.selection import Item
 from floorcast_app.workbench import Workbench
@@ -267,3 +277,44 @@ def test_guesses_are_shown_once_and_can_be_changed(planned: Workbench, qtbot: Qt
     banner.hide()
     planned.plan_changed.emit(planned.plan)
     assert not banner.isVisible()
+
+
+def test_a_survey_that_moved_is_asked_for_beside_the_work(workbench: Workbench, qtbot: QtBot) -> None:
+    window = QMainWindow()
+    _shown(qtbot, window, 1000, 600)
+    banner = MissingBanner(workbench, window)
+    assert not banner.isVisible()
+    workbench.input_missing.emit(Path("/surveys/old/tower.e57"))
+    qtbot.waitUntil(banner.isVisible)
+    assert "tower.e57" in banner.text.text() and "old" in banner.text.text()
+    asked: list[str] = []
+    workbench.try_run = lambda id, **_: asked.append(id)  # type: ignore[method-assign, assignment]
+    for button in banner.findChildren(QPushButton):
+        qtbot.mouseClick(button, LEFT)
+    assert asked == ["file.relocate", "file.close"]
+    workbench.survey_changed.emit()
+    assert not banner.isVisible()
+
+
+def test_the_names_of_recent_files_are_never_cut_off(
+    workbench: Workbench, qtbot: QtBot, tmp_path: Path
+) -> None:
+    recent = RecentFiles(QSettings(str(tmp_path / "s.ini"), QSettings.Format.IniFormat))
+    for k in range(5):
+        (tmp_path / f"wing-{k}").mkdir()
+        (tmp_path / f"wing-{k}" / "points.ply").touch()
+        recent.put(tmp_path / f"wing-{k}" / "points.ply")
+    for height, shown in ((640, 3), (900, 5)):
+        window = QMainWindow()
+        empty = EmptyState(workbench, recent, window)
+        _shown(qtbot, window, 1200, height)
+        empty.cover(window)
+        empty.show()
+        qtbot.waitUntil(lambda e=empty, n=shown: len(_live(e)) == n)  # type: ignore[misc]
+        cards = _live(empty)
+        assert all(card.height() >= card.sizeHint().height() for card in cards)
+        assert {card.text().split("/")[0] for card in cards} <= {f"wing-{k}" for k in range(5)}
+
+
+def _live(empty: EmptyState) -> list[QToolButton]:
+    return [card for card in empty.findChildren(QToolButton, "recent") if card.isVisible()]

@@ -92,3 +92,13 @@ def test_icons_are_tinted_and_follow_the_theme(qapp: QApplication) -> None:
     assert light < 60 < 180 < darkest(button)
     theme.apply_theme(qapp, "light")
     assert icons.icon("no-such-icon").isNull()
+
+
+def test_icons_are_as_fine_as_the_screen(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a screen with two device pixels for each pixel they are drawn anew, not enlarged."""
+    monkeypatch.setattr(icons, "finest_ratio", lambda: 2.0)
+    mark = icons.pixmap("info", 20)
+    assert (mark.width(), mark.devicePixelRatio()) == (40, 2.0)
+    assert mark.deviceIndependentSize().width() == 20.0
+    enlarged = icons._drawn("info", 20, theme.colours().text).scaled(40, 40)
+    assert mark.toImage() != enlarged.toImage()
