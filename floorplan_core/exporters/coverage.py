@@ -19,6 +19,8 @@ Float = NDArray[np.float64]
 
 # Metres. Faces nearer than this would cross when both are rounded to 0.1 mm; they are exported as one.
 MERGE = 5e-4
+# Polygons are kept on a grid of 1e-6: a vertex on a slanted edge of its neighbour lies beside it by as much.
+ON_EDGE = 2e-6
 
 
 def matched(polygons: Sequence[Any]) -> list[Any]:
@@ -79,7 +81,7 @@ def _insert(ring: Float, vertices: Float) -> Float:
     away = vertices - starts[:, None]  # (edges, vertices, 2)
     along = (away[..., 0] * edge[:, :1] + away[..., 1] * edge[:, 1:]) / length
     across = (away[..., 1] * edge[:, :1] - away[..., 0] * edge[:, 1:]) / length
-    on = (np.abs(across) < MERGE / 1000) & (along > MERGE / 2) & (along < length - MERGE / 2)
+    on = (np.abs(across) < ON_EDGE) & (along > MERGE / 2) & (along < length - MERGE / 2)
     parts = []
     for k in range(len(starts)):
         parts.append(starts[k : k + 1])

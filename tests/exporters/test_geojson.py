@@ -171,6 +171,15 @@ def test_hostile_names_survive() -> None:
     assert document["floorcast"]["source"] == name
 
 
+def test_a_slanted_side_with_a_corner_of_its_neighbour_stays_a_coverage() -> None:
+    """Corners on a slanted side are kept to 1e-6, beside the line that the other region draws."""
+    corner = (12.422725, 29.667836)
+    one = shapely.Polygon([(12.525, 29.5), (14.0, 29.5), (14.0, 31.1), (11.55, 31.1)])
+    other = shapely.Polygon([(12.525, 29.5), corner, (11.55, 31.1), (11.0, 31.1), (11.0, 29.5)])
+    assert not shapely.coverage_is_valid([one, other])
+    assert shapely.coverage_is_valid(rounded(matched([one, other]), lambda xy: xy, 4))
+
+
 @settings(max_examples=60, deadline=None)
 @given(
     cuts=st.lists(st.floats(0.5, 9.5), min_size=1, max_size=5, unique=True),
