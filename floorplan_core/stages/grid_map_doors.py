@@ -17,13 +17,11 @@ from numpy.typing import NDArray
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, LayoutPlane, OccupancyGrid
 from floorplan_core.stages.grid_map_chords import march
+from floorplan_core.stages.grid_map_doorways import MAX_LEAN, UPRIGHT, WIDER, Chord, faces, row_in_wall
 from floorplan_core.stages.grid_map_passages import MOUTH, Passage
 
 Bool = NDArray[np.bool_]
 
-_SKEW = math.radians(25)  # a chord across a thick wall may lean this much
-_UPRIGHT = math.radians(6)  # a chord that leans more needs a wall as thick as its lean
-_WIDER = 1.2  # a run along the wall this much longer than the chord is not the opening itself
 _FLANK = 0.25  # m of wall in line that make a jamb
 _NEAR_PLANE = 0.15  # m between a face of the door's wall and the plane that explains it
 _NEAR_RUN = 0.6  # m between the opening and the wall run that it interrupts
@@ -47,21 +45,18 @@ def _door(
     passage: Passage, planes: Sequence[LayoutPlane], floor: Bool, grid: OccupancyGrid, config: DoorsConfig
 ) -> Door | None:
     """One passage as a door; None where it leans too much."""
-    (x0, y0), (x1, y1) = passage.start, passage.end
-    axis = 0 if abs(x1 - x0) < abs(y1 - y0) else 1
-    lean = math.atan2(min(abs(x1 - x0), abs(y1 - y0)), max(abs(x1 - x0), abs(y1 - y0)))
-    if lean > _SKEW:
+    chord = Chord.of(passage.start, passage.end)
+    if chord.lean > MAX_LEAN:
         return None
-    cells = floor if axis == 1 else floor.T  # rows now run along the wall
-    u, v = ((x0 + x1) / 2, (y0 + y1) / 2) if axis == 1 else ((y0 + y1) / 2, (x0 + x1) / 2)
-    low, high = sorted((x0, x1) if axis == 1 else (y0, y1))
-    row = _row_in_wall(cells, u, v, high - low)
+    axis, lean, u, v, low, high = chord.axis, chord.lean, chord.u, chord.v, chord.low, chord.high
+    cells = chord.rows(floor)
+    row = row_in_wall(cells, u, v, high - low)
     low, high = _jambs(cells, u, row, low, high)
     if passage.kind == MOUTH:
         near = far = v + 0.5
     else:
-        near, far = _faces(cells, u, row, high - low, grid.cell, config)
-    if lean > _UPRIGHT and far - near + 1 < (high - low) * math.tan(lean):
+        near, far = faces(cells, u, row, high - low, config.max_thickness / grid.cell)
+    if lean > UPRIGHT and far - near + 1 < (high - low) * math.tan(lean):
         return None  # the wall itself leans
     o = grid.origin
     return Door(
@@ -78,42 +73,14 @@ def _door(
     )
 
 
-def _row_in_wall(cells: Bool, u: float, v: float, width: float) -> int:
-    """The row of a chord, or the one beside it between the jambs: corners belong to the rooms, too."""
-    rows = (round(v), round(v) + 1, round(v) - 1)
-    return next((row for row in rows if _run(cells, u, row, width) <= _WIDER * width + 2), rows[0])
-
-
 def _jambs(cells: Bool, u: float, row: int, low: float, high: float) -> tuple[float, float]:
     """Edges of the opening along the wall, cells; the chord's own ends where its middle is wider."""
-    most = _WIDER * (high - low) + 2
+    most = WIDER * (high - low) + 2
     left, right = (march(cells, round(u), row, s, 0.0, most) for s in (-1.0, 1.0))
     start, end = round(u) - math.ceil(left - 0.5), round(u) + math.ceil(right - 0.5)
     if end - start > most:
         return low, high + 1.0
     return float(start + 1), float(end)
-
-
-def _faces(
-    cells: Bool, u: float, row: int, width: float, cell: float, config: DoorsConfig
-) -> tuple[float, float]:
-    """Edges of the wall's faces, cells: as far as the opening gets no wider; none where it never does."""
-    limit, steps = round(config.max_thickness / cell), []
-    for sign in (-1, 1):
-        n = 0
-        while n < limit and _run(cells, u, row + sign * (n + 1), width) <= _WIDER * width:
-            n += 1
-        steps.append(n)
-    near, far = float(row - steps[0]), float(row + steps[1] + 1)
-    return (near, far) if far - near <= limit else (row + 0.5, row + 0.5)
-
-
-def _run(cells: Bool, u: float, j: int, width: float) -> float:
-    """Free cells along the wall through u in row j; infinite where that is no free cell."""
-    i = round(u)
-    if not (0 <= j < cells.shape[0] and 0 <= i < cells.shape[1] and cells[j, i]):
-        return math.inf
-    return float(march(cells, i, j, 1.0, 0.0, 2 * width) + march(cells, i, j, -1.0, 0.0, 2 * width))
 
 
 def _kind(passage: Passage, width: float, config: DoorsConfig) -> str:

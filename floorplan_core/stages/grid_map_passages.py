@@ -17,7 +17,7 @@ Cost: the corners times their neighbours within ``max_passage``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from floorplan_core.config import MapsConfig
 from floorplan_core.geometry.borders import find_borders, simplified
 from floorplan_core.geometry.masks import distance_to_gap, measure_patches
 from floorplan_core.stages.grid_map_chords import hall_ahead, in_sight, march, opening, wall_ahead
+from floorplan_core.stages.grid_map_doorways import middle_of_wall
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
@@ -240,11 +241,19 @@ def _heal(
     radius = np.zeros(int(labels.max()) + 1)
     np.maximum.at(radius, labels, gap)
     radius[0] = np.inf
-    kept = [p for p in found if not _is_idle(p, labels, radius, cell)]
+    kept = [_in_wall(p, floor, cell) for p in found if not _is_idle(p, labels, radius, cell)]
     whole = floor.copy()
     for passage in kept:
         _draw(whole, np.array([*passage.start, *passage.end]))
     return tuple(kept), label_spaces(whole, cell, config)
+
+
+def _in_wall(passage: Passage, floor: Bool, cell: float) -> Passage:
+    """The passage in the middle of its wall; a mouth has no wall."""
+    if passage.kind == MOUTH:
+        return passage
+    start, end = middle_of_wall(floor, passage.start, passage.end, _TUNNEL / cell)
+    return replace(passage, start=start, end=end)
 
 
 def _is_idle(passage: Passage, labels: Labels, radius: Float, cell: float) -> bool:

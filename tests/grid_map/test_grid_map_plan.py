@@ -56,6 +56,13 @@ def test_every_door_to_the_cell(plan: FloorPlan) -> None:
         assert corridor.id in door.connects and door.id in corridor.doors
 
 
+def test_no_door_lies_inside_a_region(plan: FloorPlan) -> None:
+    """Both spaces reach to the middle of the wall, whichever face the corners of a chord lie on."""
+    for door in plan.doors:
+        cores = [r.polygon.buffer(-1.5 * CELL, join_style="mitre") for r in plan.regions]
+        assert not shapely.intersects(shapely.LineString(door.line()), cores).any(), door
+
+
 def test_labels_are_the_papers(plan: FloorPlan) -> None:
     assert {r.label for r in plan.regions} <= {"room", "corridor"}
     assert region_at(plan, 2.0, 2.0).label == "room"
