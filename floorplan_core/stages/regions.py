@@ -68,10 +68,14 @@ def build_regions(
         pieces += [(walls.fit(room), rows) for room in rooms]
     apart = _disjoint(pieces, grid, config.sliver)
     grower = RoomGrower(planes, walls, doors, grid, config.wall_support)
-    whole = [shapely.orient_polygons(shape) for shape in grower.grow_all([shape for shape, _ in apart])]
+    grown = grower.grow_all([shape for shape, _ in apart])
+    whole = [  # a room that grew may have grown past the end of a wall
+        (shapely.orient_polygons(part), rows)
+        for shape, (_, rows) in zip(grown, apart, strict=True)
+        for part in polygons_of(cut_walls(shape, standing))
+    ]
     regions = [
-        region_of(polygon, rows, grower.sides.of(polygon), *_cells(polygon, grid))
-        for polygon, (_, rows) in zip(whole, apart, strict=True)
+        region_of(polygon, rows, grower.sides.of(polygon), *_cells(polygon, grid)) for polygon, rows in whole
     ]
     kept = [r for r in regions if _acceptable(r, config)]
     kept.sort(key=_reading_order)
