@@ -53,7 +53,7 @@ from floorplan_core.stages.storeys import (
 )
 from floorplan_core.stages.voxel_columns import LARGEST, gather_evidence
 from floorplan_core.stages.wall_points import thin_wall_points
-from floorplan_core.stages.wings import Part, find_wing, part_of, same_floor, wing_frame
+from floorplan_core.stages.wings import Part, WingFloor, find_wings, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
 from floorplan_core.survey_map import SurveyMap
 
@@ -242,12 +242,16 @@ class FloorPlanner:
 
     def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
         """The evidence of the building and of each wing that stands at another angle; () where none does."""
-        wing = find_wing(evidence, self.config.frame) if self.config.frame.wings else None
-        if wing is None:
+        wings = find_wings(evidence, self.config.frame) if self.config.frame.wings else ()
+        if not wings:
             return ()
+        building = ~np.any([wing.cells for wing in wings], axis=0)
+        return part_of(evidence, building, 0.0), *(self._wing(w, storey, frame, evidence) for w in wings)
+
+    def _wing(self, wing: WingFloor, storey: int, frame: ManhattanFrame, evidence: Evidence) -> Part:
+        """The evidence of one wing, in its own frame."""
         turned = self._evidence_of(storey, wing_frame(frame, wing.turn))
-        floor = same_floor(wing.cells, evidence, turned, wing.turn)
-        return part_of(evidence, ~wing.cells, 0.0), part_of(turned, floor, wing.turn)
+        return part_of(turned, same_floor(wing.cells, evidence, turned, wing.turn), wing.turn)
 
     def _require_room(self) -> None:
         """Raise :class:`NoPlanError` where there is too little to begin with."""

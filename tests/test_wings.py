@@ -17,7 +17,7 @@ from floorplan_core.model import FloorPlan
 from floorplan_core.pipeline import process
 from tests.box_world import LINTEL, Survey, rotation, stations, survey, two_rooms
 from tests.plan_invariants import assert_doors, assert_flags
-from tests.wing_world import WingWorld
+from tests.wing_world import TwoWings, WingWorld
 
 YAW = 10.0
 
@@ -106,6 +106,20 @@ def test_the_same_survey_gives_the_same_bytes(plan, scans):
 def test_one_frame_when_asked(scans):
     one = process(scans.reconstruction(), Config().with_values({"frame.wings": "false"}))
     assert one.wings == () and all(d.turn == 0 for d in one.doors)
+
+
+def test_two_wings_at_two_angles():
+    world = TwoWings(30.0, 60.0)
+    scans = world.survey()
+    plan = process(scans.reconstruction())
+    assert sorted(np.degrees(w.turn) for w in plan.wings) == pytest.approx([-30, 30], abs=0.3)
+    found = outlines(plan, scans)
+    assert len(found) == 6
+    assert min(fits(found, room) for room in world.rooms()) > 0.97
+    assert len({frozenset(d.connects) for d in plan.doors}) == 5  # a chain of six rooms
+    assert sum("frame of its own" in w for w in plan.warnings) == 2
+    assert_doors(plan)
+    assert_flags(plan)
 
 
 def test_a_building_without_a_wing_has_none(world):

@@ -83,16 +83,83 @@ class WingWorld:
         return Survey(np.concatenate(out), np.concatenate(ids), np.array(poses), world)
 
     def _scan(self, origin: np.ndarray, rng: np.random.Generator, rays: tuple[int, int]) -> np.ndarray:
-        around = (np.arange(rays[0]) + rng.uniform()) * 2 * np.pi / rays[0]
-        up = np.radians(np.linspace(-75, 75, rays[1]) + rng.uniform(-0.5, 0.5))
-        a, e = (m.ravel() for m in np.meshgrid(around, up))
-        directions = np.column_stack([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+        directions = fan(rays, rng)
         distance = np.minimum(
             cast(building(), origin, directions),
             cast(self.wing, (origin - self.corner) @ self.turn, directions @ self.turn),
         )
         hit = np.isfinite(distance) & (distance < 30)
         return directions[hit] * (distance[hit] + rng.normal(0, 0.008, int(hit.sum())))[:, None]
+
+
+class TwoWings:
+    """The building with a wing in the east and, half a turn about the middle away, another in the west."""
+
+    def __init__(self, east: float, west: float) -> None:
+        self.wings = WingWorld(east), WingWorld(west)
+        plain = wall(0, -0.2, 0, -0.2, 5.2)
+        door = wall(0, -0.2, 0, -0.2, 5.2, (5 - DOOR[1], 5 - DOOR[0], LINTEL))
+        self.building = [b for b in building() if b not in plain] + door
+
+    @staticmethod
+    def opposite(xyz: np.ndarray) -> np.ndarray:
+        """Half a turn about the middle of the building, and back."""
+        return np.column_stack([EAST - xyz[:, 0], 5.0 - xyz[:, 1], xyz[:, 2:]])
+
+    def rooms(self) -> list[shapely.Polygon]:
+        """The floors: two rooms, then hall and chamber of either wing."""
+        west = [shapely.transform(p, self.opposite) for p in self.wings[1].rooms()[2:]]
+        return self.wings[0].rooms() + west
+
+    def survey(self, rays: tuple[int, int] = (150, 46)) -> Survey:
+        """Scans from a walk through all rooms and doors."""
+        rng, out, ids, poses = np.random.default_rng(2), [], [], []
+        for k, place in enumerate(self._places()):
+            directions, pose = fan(rays, rng), np.eye(4)
+            pose[:3, 3] = place
+            distance = self._cast(place, directions)
+            hit = np.isfinite(distance) & (distance < 30)
+            reach = distance[hit] + rng.normal(0, 0.008, int(hit.sum()))
+            out.append(place + directions[hit] * reach[:, None])
+            ids.append(np.full(int(hit.sum()), k, dtype=np.int32))
+            poses.append(pose)
+        return Survey(np.concatenate(out), np.concatenate(ids), np.array(poses), np.eye(3))
+
+    def _places(self) -> np.ndarray:
+        """(N, 3) where the scanner stood."""
+        rooms = [
+            (1, 1.5),
+            (3, 3.5),
+            (3.8, 1.0),
+            (5.2, 3.5),
+            (6.8, 1.2),
+            (7.6, 2.5),
+            (0.4, 2.5),
+            (EAST + 0.1, 2.5),
+        ]
+        own = [(1.9, 2.3), (3.0, 1.2), (4.4, 3.6), (5.7, 4.05), (7.5, 1.6), (7.4, 3.8)]
+        own3 = np.column_stack([own, np.full(len(own), EYE)])
+        east, west = (w.world(own3) for w in self.wings)
+        inside = np.column_stack([[*rooms, (-0.1, 2.5)], np.full(len(rooms) + 1, EYE)])
+        return np.vstack([inside, east, self.opposite(west)])
+
+    def _cast(self, origin: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        back = directions * [-1, -1, 1]
+        seen = [
+            cast(w.wing, (o - w.corner) @ w.turn, d @ w.turn)
+            for w, o, d in zip(
+                self.wings, (origin, self.opposite(origin[None])[0]), (directions, back), strict=True
+            )
+        ]
+        return np.minimum(cast(self.building, origin, directions), np.minimum(*seen))
+
+
+def fan(rays: tuple[int, int], rng: np.random.Generator) -> np.ndarray:
+    """(N, 3) directions of one scan: ``rays`` around and up."""
+    around = (np.arange(rays[0]) + rng.uniform()) * 2 * np.pi / rays[0]
+    up = np.radians(np.linspace(-75, 75, rays[1]) + rng.uniform(-0.5, 0.5))
+    a, e = (m.ravel() for m in np.meshgrid(around, up))
+    return np.column_stack([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
 
 
 def _chopped(box: Box) -> list[Box]:

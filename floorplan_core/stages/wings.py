@@ -1,10 +1,10 @@
-"""Wings at another angle: which part of a survey follows a second Manhattan frame (beyond the paper).
+"""Wings at other angles: which parts of a survey follow a Manhattan frame of their own (beyond the paper).
 
-In: the evidence in the frame of the building. Out: :class:`WingFloor`, or None for nearly every survey. Free
-space is cut into rooms at its narrow places; the walls around each vote, by the direction that they have.
-Rooms in which the second direction wins are the wing; one room that has walls of both (a corridor with a
+In: the evidence in the frame of the building. Out: a :class:`WingFloor` each, none for nearly all surveys.
+Free space is cut into rooms at its narrow places; the walls around each vote, by the direction that they
+have. Rooms in which the second direction wins are a wing; one room that has walls of both (a corridor with a
 bend) is cut where they are equally near. Cost: nothing where the frame explains nearly all walls, else one
-pass over the surfels and the cells.
+pass over the surfels and the cells for each wing.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 LEAST_SHARE = 0.08  # of the walls, with the second direction: clutter has less
+MOST_WINGS = 4  # at angles of their own: more is no building of wings
 _LEAST_WALLS = 8.0  # m2 of wall with the second direction, in all and in each wing
 _LEAST_AREA = 6.0  # m2 of floor of a wing
 _ASKEW = math.radians(10)  # from the frame: walls at less are noise of those that fit
@@ -58,6 +59,32 @@ class Part:
     turn: float  # radians from the plan's axes to those of the part
     evidence: Evidence
     cells: Mask  # (ny, nx) where its floor is
+
+
+def find_wings(evidence: Evidence, config: FrameConfig) -> tuple[WingFloor, ...]:
+    """The wings, that with most wall first; ``evidence`` is in the frame of the building.
+
+    Each is looked for in what those before it left: two wings at two angles do not blur each other.
+    """
+    found: list[WingFloor] = []
+    rest = evidence
+    while len(found) < MOST_WINGS and (wing := find_wing(rest, config)) is not None:
+        found.append(wing)
+        rest = _without(rest, wing.cells)
+    return tuple(found)
+
+
+def _without(evidence: Evidence, cells: Mask) -> Evidence:
+    """The evidence less the walls and the free space over ``cells``, to look for another wing in."""
+    rows = np.flatnonzero(~_over(_grown(cells, _WALL_REACH / evidence.cell), evidence))
+    return replace(
+        evidence,
+        xyz=evidence.xyz[rows],
+        count=evidence.count[rows],
+        spread=evidence.spread[rows],
+        view=evidence.view[rows],
+        free=np.where(cells, np.uint64(0), evidence.free),
+    )
 
 
 def find_wing(evidence: Evidence, config: FrameConfig) -> WingFloor | None:
