@@ -112,7 +112,7 @@ def test_two_wings_at_two_angles():
     world = TwoWings(30.0, 60.0)
     scans = world.survey()
     plan = process(scans.reconstruction())
-    assert sorted(np.degrees(w.turn) for w in plan.wings) == pytest.approx([-30, 30], abs=0.3)
+    assert sorted(np.degrees(w.turn) for w in plan.wings) == pytest.approx([-30, 30], abs=0.1)
     found = outlines(plan, scans)
     assert len(found) == 6
     assert min(fits(found, room) for room in world.rooms()) > 0.97

@@ -108,7 +108,8 @@ def find_wing(evidence: Evidence, config: FrameConfig) -> WingFloor | None:
     cells = _floor_of(evidence, walls, straight, follows)
     if not cells.any():
         return None
-    turn = refined_direction(_plain_surfels(evidence, near & _over(cells, evidence)), turn, config)
+    around = _over(_grown(cells, _WALL_REACH / evidence.cell), evidence)  # its walls stand beside its floor
+    turn = refined_direction(_plain_surfels(evidence, near & around), turn, config)
     return WingFloor(turn, cells)
 
 
