@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.boxes import index_boxes, points_in_boxes
@@ -47,19 +48,8 @@ def refine_edges(
     facing = {p.id: p.facing for p in planes}
     signs = [0 if d.thickness > 0 else facing[d.planes[0]].sign for d in doors]
     return tuple(
-        _refined(door, sign, evidence.xyz[rows], evidence.count[rows], _is_solid(evidence, rows))
-        for door, sign, rows in zip(doors, signs, near, strict=True)
+        _refined(door, sign, rows, evidence) for door, sign, rows in zip(doors, signs, near, strict=True)
     )
-
-
-def _is_solid(evidence: Evidence, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """(R,) False for surfels where rays passed: range sensors mix what lies before and behind an edge."""
-    xyz = evidence.xyz[rows]
-    ix, iy = ((xyz[:, :2] - evidence.origin) / evidence.cell).astype(int).T
-    inside = (ix >= 0) & (iy >= 0) & (ix < evidence.shape[1]) & (iy < evidence.shape[0])
-    level = np.clip(xyz[:, 2] / LEVEL, 0, 63).astype(np.uint64)
-    free = evidence.free[np.where(inside, iy, 0), np.where(inside, ix, 0)] >> level & np.uint64(1)
-    return np.asarray(~inside | (free == 0))
 
 
 def _window(door: Door) -> tuple[float, float, float, float]:
@@ -69,18 +59,52 @@ def _window(door: Door) -> tuple[float, float, float, float]:
     return (u0, v0, u1, v1) if door.axis == 0 else (v0, u0, v1, u1)
 
 
-def _refined(door: Door, sign: int, xyz: Float, count: NDArray[np.int32], solid: NDArray[np.bool_]) -> Door:
-    u, v, z = xyz[:, door.axis] - door.offset, xyz[:, 1 - door.axis], xyz[:, 2]
+def _refined(door: Door, sign: int, rows: NDArray[np.int64], evidence: Evidence) -> Door:
     half = door.thickness / 2
     depth = (-half, half) if sign == 0 else (min(0.0, -sign * _ASSUMED), max(0.0, -sign * _ASSUMED))
-    body = solid & (z > _BODY[0]) & (z < _BODY[1])
-    wall = body & (u > depth[0] - _SKIN) & (u < depth[1] + _SKIN)
-    inner = v[body & (u > depth[0] + _SKIN) & (u < depth[1] - _SKIN)]
-    stands = _stands(v[wall] - door.start + _AROUND, z[wall], count[wall], _bins(door))
+    grid = evidence.free, evidence.origin, evidence.cell
+    at = door.axis, door.offset, *depth, half + 0.05
+    wall, inner, above = _told_apart(evidence.xyz, evidence.count, rows, *grid, *at)
+    stands = _stands(wall[:, 0] - door.start + _AROUND, wall[:, 1], wall[:, 2], _bins(door))
     start, end = _clear_width(stands, inner, door.start, door.end)
-    middle = (v > start + 0.08) & (v < end - 0.08) & (np.abs(u) < half + 0.05) & (z > _BODY[1])
-    height = float(np.percentile(z[middle], 3)) if middle.sum() >= _ENOUGH else None
+    lintel = above[(above[:, 0] > start + 0.08) & (above[:, 0] < end - 0.08), 1]
+    height = float(np.percentile(lintel, 3)) if len(lintel) >= _ENOUGH else None
     return replace(door, start=start, end=end, height=height)
+
+
+@njit(cache=True, nogil=True)
+def _told_apart(xyz, count, rows, free, origin, cell, axis, offset, near, far, reach):  # type: ignore[no-untyped-def]
+    """Of the surfels in ``rows``: along, height and count of those of the wall at the height of a body; along
+    of those between its faces; along and height of those above, within ``reach`` of its middle.
+
+    :param near: and ``far``: metres of the two faces from ``offset``.
+    """
+    wall, inner, above = np.empty((len(rows), 3)), np.empty(len(rows)), np.empty((len(rows), 2))
+    walls, inners, aboves = 0, 0, 0
+    for row in rows:
+        u, v, z = xyz[row, axis] - offset, xyz[row, 1 - axis], xyz[row, 2]
+        if z > _BODY[1]:
+            if abs(u) < reach:
+                above[aboves, 0], above[aboves, 1] = v, z
+                aboves += 1
+        elif _BODY[0] < z < _BODY[1] and _is_solid(xyz[row], free, origin, cell):
+            if near - _SKIN < u < far + _SKIN:
+                wall[walls, 0], wall[walls, 1], wall[walls, 2] = v, z, count[row]
+                walls += 1
+            if near + _SKIN < u < far - _SKIN:
+                inner[inners] = v
+                inners += 1
+    return wall[:walls], inner[:inners], above[:aboves]
+
+
+@njit(cache=True, nogil=True)
+def _is_solid(at, free, origin, cell):  # type: ignore[no-untyped-def]
+    """False for a surfel where rays passed: range sensors mix what lies before and behind an edge."""
+    ix, iy = int((at[0] - origin[0]) / cell), int((at[1] - origin[1]) / cell)
+    if ix < 0 or iy < 0 or ix >= free.shape[1] or iy >= free.shape[0]:
+        return True
+    level = np.uint64(min(max(at[2] / LEVEL, 0.0), 63.0))
+    return (free[iy, ix] >> level) & np.uint64(1) == 0
 
 
 def _bins(door: Door) -> int:
@@ -105,7 +129,7 @@ def _clear_width(stands: NDArray[np.bool_], inner: Float, start: float, end: flo
     return (float(low), float(high)) if high - low > _LEAST else (start, end)
 
 
-def _stands(v: Float, z: Float, count: NDArray[np.int32], bins: int) -> NDArray[np.bool_]:
+def _stands(v: Float, z: Float, count: Float, bins: int) -> NDArray[np.bool_]:
     """(bins,) True where surfaces were seen over much of a body's height; ``v`` counts from the first."""
     seen = np.zeros((bins + 1, _LEVELS), dtype=bool)
     along = np.floor(v / _BIN).astype(int)
@@ -117,7 +141,7 @@ def _stands(v: Float, z: Float, count: NDArray[np.int32], bins: int) -> NDArray[
     return np.asarray(levels >= _STANDS * _LEVELS) & _is_dense(along[inside], count[inside], bins)
 
 
-def _is_dense(along: NDArray[np.int64], count: NDArray[np.int32], bins: int) -> NDArray[np.bool_]:
+def _is_dense(along: NDArray[np.int64], count: Float, bins: int) -> NDArray[np.bool_]:
     """(bins,) True where about as many points lie as where the wall was seen best."""
     points = np.convolve(np.bincount(along, weights=count, minlength=bins), np.ones(3), mode="same")
     return np.asarray(points >= _DENSE * np.percentile(points, _BEST))
