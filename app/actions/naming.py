@@ -36,7 +36,6 @@ from floorplan_core.model.layout import turned
 from floorplan_core.stages.corrections import REACH, in_plan, part_of, shifted, turned_back
 from floorplan_core.stages.corrections_doors import find_door
 from floorplan_core.stages.corrections_walls import facing_of, find_plane
-from floorplan_core.stages.wing_joins import named
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
@@ -154,6 +153,8 @@ def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
 
 def _of_plane(said: Said, plane: LayoutPlane, added: Sequence[int], part: int) -> list[int]:
     """Backwards, as a wall may have been moved several times; in the axes of the wall's own part."""
+    from floorplan_core.stages.wing_joins import named  # it needs numba: not before the window
+
     out, axis = [], plane.facing.axis
     for k, c in reversed(said):
         if isinstance(c, MovePlane) and facing_of(c.plane.normal) == plane.facing:
