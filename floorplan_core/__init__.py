@@ -15,20 +15,31 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "Config": "floorplan_core.config",
+    "CorrectingPlanner": "floorplan_core.drift.online",
     "FloorPlan": "floorplan_core.model",
     "FloorPlanner": "floorplan_core.pipeline",
     "FloorPlanError": "floorplan_core.errors",
-    "open_survey": "floorplan_core.readers",
+    "open_survey": "floorplan_core.surveys",
     "process": "floorplan_core.pipeline",
 }
-__all__ = ["Config", "FloorPlan", "FloorPlanError", "FloorPlanner", "__version__", "open_survey", "process"]
+__all__ = [
+    "Config",
+    "CorrectingPlanner",
+    "FloorPlan",
+    "FloorPlanError",
+    "FloorPlanner",
+    "__version__",
+    "open_survey",
+    "process",
+]
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config
+    from floorplan_core.drift.online import CorrectingPlanner
     from floorplan_core.errors import FloorPlanError
     from floorplan_core.model import FloorPlan
     from floorplan_core.pipeline import FloorPlanner, process
-    from floorplan_core.readers import open_survey
+    from floorplan_core.surveys import open_survey
 
 
 def __getattr__(name: str) -> Any:

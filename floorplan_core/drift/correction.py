@@ -107,6 +107,8 @@ def find_correction(
 
     ``check`` is called again and again; it raises where nobody wants the answer any more.
     """
+    if len(keyframes) < 2:  # nothing to drift against
+        return Correction(np.zeros((len(keyframes), 3)), np.zeros(len(keyframes)), 0, 0)
     length = np.diff(keyframes.path)
     turn = headings(patches, HEADING_FLOOR + np.radians(config.heading) * length, check)
     sightings = find_sightings(patches, turn, check)

@@ -15,6 +15,8 @@ from floorplan_core.errors import InputError, NoPlanError
 from floorplan_core.model import LocalFrame, PointChunk, Reconstruction, Trajectory
 from floorplan_core.readers import open_survey
 from floorplan_core.replay import intervals
+from tests.box_world import room, stations
+from tests.box_world import survey as box_survey
 from tests.drift.test_correction import CONFIG, SAMPLE, bent, error
 
 
@@ -76,6 +78,15 @@ def test_scan_by_scan_is_the_same_as_by_chunks(survey):
     rows = (len(whole.plan().regions), len(single.plan().regions))
     assert rows[0] == rows[1] > 0
     np.testing.assert_allclose(whole.path.origins, single.path.origins, atol=5e-3)
+
+
+def test_the_first_scan_is_a_plan_already():
+    """One keyframe has nothing to drift against."""
+    scans = box_survey(room(4.0, 5.0), stations(4.0, 5.0)[:1])
+    planner = CorrectingPlanner()
+    planner.integrate((scans.points - scans.poses[0, :3, 3]) @ scans.poses[0, :3, :3], scans.poses[0])
+    assert len(planner.plan().regions) == 1
+    np.testing.assert_allclose(planner.map_from_odom, np.eye(4), atol=1e-12)
 
 
 def test_what_cannot_be_corrected_is_one_sentence(survey):
