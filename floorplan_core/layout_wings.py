@@ -44,7 +44,7 @@ def add_wings(
     """
     whole, remarks = parts[0].evidence, main.remarks
     turns = [part.turn for part in parts]
-    found, cells = [_part(main, 0.0)], []
+    found, cells = [part_layout(main, 0.0)], []
     wings: list[Wing] = []
     for k, part in enumerate(parts[1:], start=1):
         quiet = Observer(observer.cancel)  # what a stage shows is in the frame of the building
@@ -59,8 +59,8 @@ def add_wings(
                 warnings=(f"A wing of {area:.0f} m2 at {degrees:.1f} degrees gives no plan: {error}",)
             )
             continue
-        found.append(_part(made, part.turn))
-        wings.append(_wing(made, part.turn, len(wings) + 1))
+        found.append(part_layout(made, part.turn))
+        wings.append(wing_of(made, part.turn, len(wings) + 1))
         cells.append(same_floor(part.cells, part.evidence, whole, -part.turn))
         machine = tuple((named(ident, len(wings)), text) for ident, text in made.remarks.machine)
         remarks += Remarks(machine, tuple(f"In the wing: {text}" for text in made.remarks.warnings))
@@ -101,11 +101,12 @@ def _counted(region: Region, grid: OccupancyGrid) -> Region:
     return replace(region, free_cells=free, total_cells=total)
 
 
-def _part(made: Layout, turn: float) -> PartLayout:
+def part_layout(made: Layout, turn: float) -> PartLayout:
+    """What was made of a part, for the joining."""
     return PartLayout(turn, made.planes, made.doors, made.regions, made.grid)
 
 
-def _wing(made: Layout, turn: float, number: int) -> Wing:
+def wing_of(made: Layout, turn: float, number: int) -> Wing:
     """Planes and segments with ids that say of which wing they are."""
     planes = tuple(
         replace(p, id=named(p.id, number), segments=tuple(named(s, number) for s in p.segments), turn=turn)

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
-from floorplan_core.geometry.surfel_map import SurfelMap
+from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
-from floorplan_core.layout import lay_out
+from floorplan_core.layout import Layout, lay_out
+from floorplan_core.layout_islands import add_islands, site_points
 from floorplan_core.layout_wings import add_wings
 from floorplan_core.memory import fits, require_memory
 from floorplan_core.model import (
@@ -33,14 +34,17 @@ from floorplan_core.model import (
     RectangleCover,
     Region,
     Trajectory,
+    Wing,
 )
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
-from floorplan_core.stages.corrections import Remarks, in_plan, said_of_part
+from floorplan_core.stages.corrections import Remarks, Said, in_plan, said_of_part
+from floorplan_core.stages.corrections_doors import lost_doors
 from floorplan_core.stages.corrections_regions import correct_names
+from floorplan_core.stages.islands import Island, find_islands, is_wide
 from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import connect_doors
@@ -52,8 +56,7 @@ from floorplan_core.stages.storeys import (
     restrict_surfels,
 )
 from floorplan_core.stages.voxel_columns import LARGEST, gather_evidence
-from floorplan_core.stages.wall_points import thin_wall_points
-from floorplan_core.stages.wings import Part, WingFloor, find_wings, part_of, same_floor, wing_frame
+from floorplan_core.stages.wings import Part, find_wings, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
 from floorplan_core.survey_map import SurveyMap
 
@@ -133,7 +136,7 @@ class FloorPlanner:
         stage, self._ahead = StageRunner(self.observer, given, before, memory), 0.0
 
         frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
-        evidence = stage("occupancy", lambda: self._evidence_of(storey, frame), frame, config.voxels)
+        evidence = stage("occupancy", lambda: self._largest_of(storey, frame), frame, config.voxels)
         parts = stage("occupancy", lambda: self._parts_of(storey, frame, evidence), evidence, config.frame)
         if not all(isinstance(part, Part) for part in parts):
             raise InputError("These stages were kept by another version; run again with --save-stages.")
@@ -142,19 +145,20 @@ class FloorPlanner:
             own = said_of_part(say, 0, [part.turn for part in parts])
             main = lay_out(parts[0].evidence, config, stage, self.observer, own, parts[0].cells)
             made, wings = stage.correct(
-                "wings", lambda: add_wings(main, parts, config, self.observer, say), main, parts, config, say
+                "wings", lambda: self._with_others(main, parts, say), main, parts, config, say
             )
         else:
             made, wings = lay_out(evidence, config, stage, self.observer, say), ()
         segments, planes, doors, grid, said = made.segments, made.planes, made.doors, made.grid, made.remarks
         regions, cover = made.regions, made.cover
+        shown = (*segments, *(s for wing in wings for s in wing.segments))
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
         regions, doors = self._named(self._some(regions), doors, storey, frame)
         regions, remarks = correct_names(regions, say.names)
-        said += remarks + self._lost(made.doors, doors)
-        shown = (*segments, *(s for w in wings for s in w.segments))
-        points = stage("regions", lambda: thin_wall_points(evidence, shown), evidence, shown)
+        said += remarks + lost_doors(made.doors, doors)
+        seen = [part.evidence for part in parts if part.apart] or [evidence]
+        points = stage("regions", lambda: site_points(seen, shown), evidence, shown)
 
         self.observer.check_cancelled()
         return FloorPlan(
@@ -168,7 +172,7 @@ class FloorPlanner:
             cover=cover,
             regions=regions,
             wall_points=points,
-            trajectory=evidence.path,
+            trajectory=np.concatenate([each.path for each in seen]),
             source=self.source,
             point_count=int(evidence.count.sum()) if self._is_one_of_many() else self.map.surfels.points,
             config=config,
@@ -211,21 +215,52 @@ class FloorPlanner:
         level = storeys[storey]
         return replace(frame, floor_z=level.floor_z, ceiling_z=level.ceiling_z)
 
-    def _evidence_of(self, storey: int, frame: ManhattanFrame) -> Evidence:
-        """The voxel map of one storey."""
-        surfels, path = self.map.surfels, self.map.path()
-        own = self._own(frame)
-        chosen = self.storeys()[storey] if self._is_one_of_many() else None
-        if chosen is not None:
-            surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
-        self._make_room_for_plan(surfels, own)
-        found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
-        return replace(restrict_evidence(found, chosen) if chosen is not None else found, frame=frame)
+    def _with_others(
+        self, main: Layout, parts: tuple[Part, ...], say: Said
+    ) -> tuple[Layout, tuple[Wing, ...]]:
+        """The layout of the first part with those of the others: wings, or buildings that stand apart."""
+        if parts[0].apart:
+            return add_islands(main, parts, self.config, self.observer)
+        return add_wings(main, parts, self.config, self.observer, say)
 
-    def _make_room_for_plan(self, surfels: SurfelMap, own: ManhattanFrame) -> None:
-        """See to it that there is memory for the evidence of ``surfels`` and for the stages."""
-        size = self.config.voxels.size
-        seen = self.map.sample().centroid
+    def _surfels_of(self, storey: int, own: ManhattanFrame) -> tuple[SurfelMap, Float]:
+        """Surfels and sensor positions of one storey."""
+        surfels, path = self.map.surfels, self.map.path()
+        if self._is_one_of_many():
+            chosen = self.storeys()[storey]
+            surfels, path = restrict_surfels(surfels, own, chosen), restrict_path(path, own, chosen)
+        return surfels, path
+
+    def _islands(self, storey: int, frame: ManhattanFrame) -> tuple[Island, ...]:
+        """Buildings that stand apart from each other, largest first; () for nearly every survey."""
+        own = self._own(frame)
+        if not is_wide(self.map.sample(), own):
+            return ()
+        return find_islands(self._surfels_of(storey, own)[0], own)
+
+    def _evidence_of(self, storey: int, frame: ManhattanFrame, island: Island | None = None) -> Evidence:
+        """The voxel map of one storey; of one building of it."""
+        own = self._own(frame)
+        surfels, path = self._surfels_of(storey, own)
+        if island is not None:
+            surfels, path = island.surfels_of(surfels), path[island.holds(path)]
+        seen = (
+            self.map.sample() if island is None else surfels.surfels(max(1, len(surfels) // OUTLINE_SURFELS))
+        )
+        self._make_room_for_plan(surfels, seen, own)
+        found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
+        if self._is_one_of_many():
+            found = restrict_evidence(found, self.storeys()[storey])
+        return replace(found, frame=frame)
+
+    def _largest_of(self, storey: int, frame: ManhattanFrame) -> Evidence:
+        """The voxel map of one storey; where buildings stand apart, of the largest."""
+        return self._evidence_of(storey, frame, *self._islands(storey, frame)[:1])
+
+    def _make_room_for_plan(self, surfels: SurfelMap, some: Surfels, own: ManhattanFrame) -> None:
+        """See to it that there is memory for the evidence of ``surfels``, of which ``some`` show the extent,
+        and for the stages."""
+        size, seen = self.config.voxels.size, some.centroid
         xy = seen[:: max(1, len(seen) // OUTLINE_SURFELS)] @ own.rotation[:2].T
         wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()
         columns = min(wide * deep / (size / 2) ** 2, LARGEST)  # a larger site is refused for its size
@@ -241,17 +276,21 @@ class FloorPlanner:
             require_memory(needed, what)
 
     def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
-        """The evidence of the building and of each wing that stands at another angle; () where none does."""
+        """The evidence of the building and of each wing that stands at another angle, or of each of the
+        buildings that stand apart; () where there is one building without wings."""
+        islands = self._islands(storey, frame)
+        if len(islands) > 1:
+            others = [self._evidence_of(storey, frame, island) for island in islands[1:]]
+            return tuple(Part(0.0, e, np.ones(e.shape, dtype=bool), apart=True) for e in (evidence, *others))
         wings = find_wings(evidence, self.config.frame) if self.config.frame.wings else ()
         if not wings:
             return ()
-        building = ~np.any([wing.cells for wing in wings], axis=0)
-        return part_of(evidence, building, 0.0), *(self._wing(w, storey, frame, evidence) for w in wings)
-
-    def _wing(self, wing: WingFloor, storey: int, frame: ManhattanFrame, evidence: Evidence) -> Part:
-        """The evidence of one wing, in its own frame."""
-        turned = self._evidence_of(storey, wing_frame(frame, wing.turn))
-        return part_of(turned, same_floor(wing.cells, evidence, turned, wing.turn), wing.turn)
+        building, parts = ~np.any([wing.cells for wing in wings], axis=0), []
+        for wing in wings:
+            turned = self._evidence_of(storey, wing_frame(frame, wing.turn), *islands[:1])
+            floor = same_floor(wing.cells, evidence, turned, wing.turn)
+            parts.append(part_of(turned, floor, wing.turn))
+        return part_of(evidence, building, 0.0), *parts
 
     def _require_room(self) -> None:
         """Raise :class:`NoPlanError` where there is too little to begin with."""
@@ -283,19 +322,6 @@ class FloorPlanner:
                 "scan more walls, or raise candidates.max_ratio."
             )
         return regions
-
-    @staticmethod
-    def _lost(before: tuple[Door, ...], doors: tuple[Door, ...]) -> Remarks:
-        """Doors by hand that join no two regions, and so are none."""
-        left = {d.id for d in doors}
-        gone = [d for d in before if d.by_hand and d.id not in left]
-        return Remarks(
-            warnings=tuple(
-                f"The door {d.by_hand} by hand at ({d.line().mean(axis=0)[0]:.2f}, "
-                f"{d.line().mean(axis=0)[1]:.2f}) does not lie between two regions, and is left out."
-                for d in gone
-            )
-        )
 
     def _warnings(self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks) -> tuple[str, ...]:
         """What the user should know about this plan; told to the observer too."""

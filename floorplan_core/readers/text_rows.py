@@ -22,6 +22,7 @@ from floorplan_core.readers.source import SAMPLE_BLOCKS, SAMPLE_POINTS, RawChunk
 Float = NDArray[np.float64]
 
 BLOCK_BYTES = 4 << 20  # some 130,000 points
+KERNEL_FROM = 1 << 18  # bytes: for less text no kernel is loaded
 MAX_LINE_BYTES = 1 << 16  # a longer line is no row of numbers
 ORDER_PASS_BYTES = 32 << 20  # up to here a whole pass is cheap enough to learn the order of the scans
 
@@ -121,6 +122,12 @@ def normalise(block: bytes, layout: TextLayout) -> bytes:
 
 def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:
     lines = text.count(b"\n") + (not text.endswith(b"\n") and bool(text))
+    if len(text) > KERNEL_FROM:
+        from floorplan_core.readers.plain_numbers import parse_numbers  # compiled: only for what is worth it
+
+        rows = parse_numbers(text, lines, layout.columns)
+        if rows is not None:
+            return rows
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:

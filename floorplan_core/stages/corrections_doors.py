@@ -227,3 +227,16 @@ def _trimmed(door: Door, other: Door) -> Door:
     if door.start + door.end < other.start + other.end:
         return replace(door, end=min(door.end, other.start))
     return replace(door, start=max(door.start, other.end))
+
+
+def lost_doors(before: Doors, doors: Doors) -> Remarks:
+    """Doors by hand that join no two regions, and so are none."""
+    left = {d.id for d in doors}
+    gone = [d for d in before if d.by_hand and d.id not in left]
+    return Remarks(
+        warnings=tuple(
+            f"The door {d.by_hand} by hand at ({d.line().mean(axis=0)[0]:.2f}, "
+            f"{d.line().mean(axis=0)[1]:.2f}) does not lie between two regions, and is left out."
+            for d in gone
+        )
+    )

@@ -59,6 +59,7 @@ class Part:
     turn: float  # radians from the plan's axes to those of the part
     evidence: Evidence
     cells: Mask  # (ny, nx) where its floor is
+    apart: bool = False  # True: a building by itself on a site of several (stages.islands)
 
 
 def find_wings(evidence: Evidence, config: FrameConfig) -> tuple[WingFloor, ...]:
