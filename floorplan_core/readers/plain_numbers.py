@@ -7,6 +7,8 @@ parser's. For everything else the caller asks another parser.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -62,7 +64,8 @@ def _number(text, at, powers):  # type: ignore[no-untyped-def]
     negative = text[at] == _MINUS
     if negative or text[at] == _PLUS:
         at += 1
-    whole, digits, places, point = 0, 0, 0, False
+    whole: Any = 0
+    digits, places, point = 0, 0, False
     while at < len(text):
         byte = np.int64(text[at])
         if _ZERO <= byte <= _NINE:
@@ -98,7 +101,8 @@ def _exponent(text, at):  # type: ignore[no-untyped-def]
     down = at < len(text) and text[at] == _MINUS
     if down or (at < len(text) and text[at] == _PLUS):
         at += 1
-    value, first = 0, at
+    value: Any = 0
+    first = at
     while at < len(text) and _ZERO <= np.int64(text[at]) <= _NINE:
         value = min(10 * value + np.int64(text[at]) - _ZERO, _FAR)
         at += 1
