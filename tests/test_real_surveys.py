@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 import floorplan_core as fc
-from floorplan_core.plugins import default_registry
 from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
 from tests.plan_invariants import assert_coverage
 from tests.plugins.plugin_files import shared
@@ -13,7 +12,7 @@ from tests.plugins.plugin_files import shared
 
 @pytest.mark.parametrize("name", ["carmen_aces/points2d.ply", "carmen_intel/points2d.ply"])
 def test_no_room_grows_past_the_end_of_a_wall(name: str) -> None:
-    plan = fc.process(fc.open_survey(shared(name), registry=default_registry()))
+    plan = fc.process(fc.open_survey(shared(name)))
     assert_coverage(plan.regions)
     standing = standing_walls(plan.planes, plan.config.regions.wall_support)
     assert len(standing) > 50
