@@ -32,6 +32,7 @@ _LINTELS = (
 )
 _CORNER_PASSAGE = 0.45  # m of a corner opening through which free space must be seen
 _CORNER_LINTEL = 0.3  # of the width of a corner opening that must be seen under a lintel
+_SPANNED = 0.8  # share of a wide corner opening that must be under a lintel, passed, and empty
 _CORNER_RESPONSE = 0.5  # there is one step instead of two
 _FREE = 0.3  # share of the height of a door that is free where it is open
 _FREE_WITHIN = 0.4  # the same within the wall, where it is open by that alone
@@ -162,7 +163,7 @@ def _corner_gaps(
     narrow gap is a door without one, a wide one rather a passage past the wall's end. Where it ends at a wall
     that goes on past it, it has no end of its own: the gap is as wide as the corridor that runs by.
     """
-    most = config.max_width
+    most, wide = config.max_width, config.max_opening
     ends = [
         gap
         for edge in _edges_of(walls)
@@ -170,10 +171,23 @@ def _corner_gaps(
         and (gap := _corner_gap(profile, free, *edge, meets, most))
         and _passed(profile, gap) >= _CORNER_PASSAGE
     ]
-    under = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in _edges_of(_pieces(profile))]
+    pieces = _edges_of(_pieces(profile))
+    under = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in pieces]
     widest = most if lintels else min(_BARE_CORNER, most)
     ends += [gap for gap in under if gap and _lintel_share(profile, gap) >= _CORNER_LINTEL]
-    return [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
+    doors = [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
+    further = [_corner_gap(profile, free, *edge, meets, wide + _JAMB) for edge in pieces]
+    return doors + [
+        gap for gap in further if gap and most < gap[1] - gap[0] <= wide and _spanned(profile, gap)
+    ]
+
+
+def _spanned(profile: WallProfile, gap: Aperture) -> bool:
+    """True where a lintel spans an aperture, and free space passes it and nothing stands in it."""
+    a, b = (round((v - profile.start) / profile.step) for v in gap[:2])
+    empty = 1.0 - float(is_solid(profile)[a:b].mean())
+    passed = _passed(profile, gap) / (gap[1] - gap[0])
+    return min(empty, passed, _lintel_share(profile, gap)) >= _SPANNED
 
 
 def _is_at(edge: float, crossing: Float) -> bool:

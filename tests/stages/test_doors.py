@@ -114,6 +114,16 @@ def test_a_wide_opening_below_a_lintel_is_an_opening():
     assert door.width == pytest.approx(1.8, abs=0.05)
 
 
+@pytest.mark.parametrize("at", [(0.0, 1.7), (2.6, 5.0)])
+def test_a_wide_opening_in_a_corner(at):
+    """The lintel goes from the end of the wall to the crossing wall, which is its other jamb."""
+    result = _run(((*at, LINTEL),))
+    (opening,) = _doors(result)
+    assert opening.kind == "opening"
+    assert (opening.start, opening.end) == pytest.approx(at, abs=0.06)
+    assert len(result.plan.regions) == len(opening.connects) == 2  # type: ignore[union-attr]
+
+
 @pytest.mark.parametrize("width", [0.8, 1.0, 1.2])
 @pytest.mark.parametrize("trajectory", [True, False], ids=["viewpoints", "plain"])
 def test_a_gap_in_the_data_is_no_door(width, trajectory):
@@ -214,6 +224,25 @@ def test_a_gap_between_two_walls_that_go_on_is_as_wide_as_the_corridor_and_no_do
     assert apertures(profile, profile.through, walls, meets, settings, past=np.array([2.05])) == []
     beyond = apertures(profile, profile.through, walls, meets, settings, past=np.array([3.2]))
     assert len(beyond) == 1  # the corner beyond a door may belong to a wall that goes on
+
+
+def test_a_wide_corner_opening_needs_its_lintel_all_along():
+    """A wall up to 2 m, then 2 m to the corner that are passed."""
+    low = np.where(np.arange(80) < 40, 0.9, 0.0)
+    passed, settings = 1.0 - np.minimum(low * 2, 1.0), DoorsConfig(min_response=2.0)  # corners alone
+
+    def found(lintel: np.ndarray, through: np.ndarray = passed, stands: np.ndarray = low) -> list:
+        profile = WallProfile(0.0, 0.05, stands, lintel, through)
+        return apertures(profile, through, np.array([[0.0, 2.0]]), np.array([4.0]), settings)
+
+    ((start, end, _),) = found(np.full(80, 0.5))
+    assert (start, end) == pytest.approx((2.0, 4.0))
+    assert found(np.where(np.arange(80) < 60, 0.5, 0.0)) == []  # a lintel over half of it
+    assert (
+        found(np.full(80, 0.5), np.where(np.arange(80) < 60, passed, 0.0)) == []
+    )  # seen free over half of it
+    pillar = np.where((np.arange(80) >= 55) & (np.arange(80) < 66), 0.9, low)
+    assert all(b - a < 1.3 for a, b, _ in found(np.full(80, 0.5), stands=pillar))
 
 
 def test_a_few_lintels_show_that_the_sensor_sees_in_three_dimensions():
