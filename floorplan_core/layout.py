@@ -31,6 +31,7 @@ from floorplan_core.stages.corrections_regions import Surroundings, correct_shap
 from floorplan_core.stages.corrections_walls import correct_walls, still_walls
 from floorplan_core.stages.doors import find_doors
 from floorplan_core.stages.guessed_viewpoints import looked_around
+from floorplan_core.stages.hidden_gaps import close_hidden_gaps
 from floorplan_core.stages.layout_planes import find_planes, mark_recesses, pairable
 from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.narrowings import find_openings
@@ -84,8 +85,8 @@ def lay_out(
     around = stage.correct("viewpoints", lambda: looked_around(evidence), evidence)
     machine = stage(
         "planes",
-        lambda: mark_recesses(bridge_lines(planes, around, config.doors), parts),
-        *(planes, around, config.doors, parts),
+        lambda: mark_recesses(_bridged(planes, evidence, around, config.doors), parts),
+        *(planes, evidence, around, config.doors, parts),
     )
     planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
 
@@ -134,6 +135,13 @@ def lay_out(
     )
     regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
     return Layout(segments, planes, doors, grid, candidates, cover, regions, said + remarks)
+
+
+def _bridged(
+    planes: tuple[LayoutPlane, ...], evidence: Evidence, around: Evidence, doors: DoorsConfig
+) -> tuple[LayoutPlane, ...]:
+    """The planes, wall also where a line of wall is only hidden."""
+    return close_hidden_gaps(bridge_lines(planes, around, doors), evidence, doors)
 
 
 def _within(grid: OccupancyGrid, cells: NDArray[np.bool_] | None) -> OccupancyGrid:

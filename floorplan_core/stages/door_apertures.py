@@ -178,12 +178,20 @@ def _corner_gaps(
     doors = [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
     further = [_corner_gap(profile, free, *edge, meets, wide + _JAMB) for edge in pieces]
     return doors + [
-        gap for gap in further if gap and most < gap[1] - gap[0] <= wide and _spanned(profile, gap)
+        gap
+        for gap in further
+        if gap and most < gap[1] - gap[0] <= wide and _spanned(profile, walls, gap, config.max_beamless)
     ]
 
 
-def _spanned(profile: WallProfile, gap: Aperture) -> bool:
-    """True where a lintel spans an aperture, and free space passes it and nothing stands in it."""
+def _spanned(profile: WallProfile, walls: Float, gap: Aperture, beamless: float) -> bool:
+    """True where a lintel that is no beam spans an aperture, free space passes it, nothing stands in it.
+
+    :param beamless: metres; what is wider and a beam was cut out of the runs.
+    """
+    covered = any(start < gap[0] + _JAMB and gap[1] - _JAMB < end for start, end in walls.tolist())
+    if gap[1] - gap[0] > beamless and not covered:
+        return False
     a, b = (round((v - profile.start) / profile.step) for v in gap[:2])
     empty = 1.0 - float(is_solid(profile)[a:b].mean())
     passed = _passed(profile, gap) / (gap[1] - gap[0])

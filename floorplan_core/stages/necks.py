@@ -106,7 +106,7 @@ def _gaps(
     """The gaps in the line of a plane, and those between its ends and the walls ``across``."""
     near = (across[:, 1] < plane.offset + _CORNER) & (across[:, 2] > plane.offset - _CORNER)
     corners = np.sort(across[near, 0])
-    ends = [(-_NOWHERE, -_NOWHERE), *_line(plane, planes), (_NOWHERE, _NOWHERE)]
+    ends = [(-_NOWHERE, -_NOWHERE), *line_runs(plane, planes), (_NOWHERE, _NOWHERE)]
     found = []
     for (s0, e0), (s1, e1) in pairwise(ends):
         before, after = min(e0 - s0, _LOOK), min(e1 - s1, _LOOK)
@@ -119,7 +119,7 @@ def _gaps(
     return [c for c in found if config.min_width <= c.width <= config.max_opening]
 
 
-def _line(plane: LayoutPlane, planes: Sequence[LayoutPlane]) -> list[tuple[float, float]]:
+def line_runs(plane: LayoutPlane, planes: Sequence[LayoutPlane]) -> list[tuple[float, float]]:
     """The runs of all planes in one line with a plane, joined where they meet."""
     runs: list[tuple[float, float]] = []
     mine = [p for p in planes if p.facing.axis == plane.facing.axis and abs(p.offset - plane.offset) <= _LINE]

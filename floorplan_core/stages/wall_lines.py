@@ -58,7 +58,7 @@ def bridge_lines(
     for line in find_lines(planes, evidence, config):
         runs.setdefault(line.planes[0].id, []).extend(_closed(line))
     return tuple(
-        replace(p, walls=_united([*map(tuple, p.walls.tolist()), *runs[p.id]])) if p.id in runs else p
+        replace(p, walls=united([*map(tuple, p.walls.tolist()), *runs[p.id]])) if p.id in runs else p
         for p in planes
     )
 
@@ -105,7 +105,7 @@ def _stretches(
     offset = mine[0].offset
     crossed = [x.planes[0].offset for x in across if x.start < offset < x.end]
     groups: list[list[tuple[float, float]]] = []
-    for s, e in _united([(float(s), float(e)) for p in mine for s, e in p.walls]).tolist():
+    for s, e in united([(float(s), float(e)) for p in mine for s, e in p.walls]).tolist():
         last = groups[-1][-1][1] if groups else -np.inf
         if s - last <= config.max_opening and not any(last - _ABREAST < c < s + _ABREAST for c in crossed):
             groups[-1].append((s, e))
@@ -145,7 +145,7 @@ def _passages(
         most = max(round(config.aperture / profile.step), b - a)
         first, last = _widened(stands, int(a), int(b), round(_JAMB / profile.step), int(most))
         out.append((profile.start + profile.step * first, profile.start + profile.step * last))
-    return tuple(map(tuple, _united(out).tolist()))
+    return tuple(map(tuple, united(out).tolist()))
 
 
 def _passed(planes: Sequence[LayoutPlane], evidence: Evidence) -> Mask:
@@ -182,7 +182,7 @@ def _closed(line: WallLine) -> list[tuple[float, float]]:
     return [p for p in (*pieces, (at, line.end)) if p[1] > p[0]]
 
 
-def _united(spans: Sequence[tuple[float, float]]) -> Float:
+def united(spans: Sequence[tuple[float, float]]) -> Float:
     """(K, 2) the union of spans."""
     out: list[list[float]] = []
     for s, e in sorted(spans):
