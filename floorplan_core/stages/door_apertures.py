@@ -142,6 +142,7 @@ def apertures(
         *_corner_gaps(profile, free, walls, meets.tolist(), past, config, lintels),
         *_lintel_gaps(profile, free, walls, config),
         *_free_gaps(profile, free, config),
+        *_wide_corner_gaps(profile, free, walls, meets.tolist(), config),
     ):
         if not _overlaps(gap, out):
             out.append(gap)
@@ -163,7 +164,7 @@ def _corner_gaps(
     narrow gap is a door without one, a wide one rather a passage past the wall's end. Where it ends at a wall
     that goes on past it, it has no end of its own: the gap is as wide as the corridor that runs by.
     """
-    most, wide = config.max_width, config.max_opening
+    most = config.max_width
     ends = [
         gap
         for edge in _edges_of(walls)
@@ -171,16 +172,23 @@ def _corner_gaps(
         and (gap := _corner_gap(profile, free, *edge, meets, most))
         and _passed(profile, gap) >= _CORNER_PASSAGE
     ]
-    pieces = _edges_of(_pieces(profile))
-    under = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in pieces]
+    under = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in _edges_of(_pieces(profile))]
     widest = most if lintels else min(_BARE_CORNER, most)
     ends += [gap for gap in under if gap and _lintel_share(profile, gap) >= _CORNER_LINTEL]
-    doors = [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
-    further = [_corner_gap(profile, free, *edge, meets, wide + _JAMB) for edge in pieces]
-    return doors + [
+    return [gap for gap in ends if config.min_width <= gap[1] - gap[0] <= widest]
+
+
+def _wide_corner_gaps(
+    profile: WallProfile, free: Float, walls: Float, meets: Sequence[float], config: DoorsConfig
+) -> list[Aperture]:
+    """The same wider than a door, where a lintel spans them and nothing else shows their edges better."""
+    least, most = config.max_width, config.max_opening
+    edges = _edges_of(_pieces(profile))
+    gaps = [_corner_gap(profile, free, *edge, meets, most + _JAMB) for edge in edges]
+    return [
         gap
-        for gap in further
-        if gap and most < gap[1] - gap[0] <= wide and _spanned(profile, walls, gap, config.max_beamless)
+        for gap in gaps
+        if gap and least < gap[1] - gap[0] <= most and _spanned(profile, walls, gap, config.max_beamless)
     ]
 
 
