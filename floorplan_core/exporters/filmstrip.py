@@ -17,10 +17,12 @@ from floorplan_core.exporters.png import INK, WHITE, occupancy_image, plan_image
 from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, fit_view, font, plan_bounds, save
 from floorplan_core.model import FloorPlan
 
+MUTED = (84, 96, 108)
 FRAME = (205, 210, 215)
 PANEL = 760  # pixels, longer side of one panel
 GAP = 28  # pixels
-TITLE = 54  # pixels
+TITLE = 84  # pixels above the panels
+HEADING, FACTS = 30, 23  # pixels of text: a strip of four is looked at at half its size
 COLUMNS = 4  # columns before a new row begins
 TURNED = np.deg2rad(2.0)  # frames that differ more do not share coordinates
 
@@ -84,10 +86,10 @@ def _column(plan: FloorPlan, title: str, view: View) -> Image.Image:
     column.paste(upper, (0, TITLE))
     column.paste(lower, (0, TITLE + view.height + GAP))
     draw = ImageDraw.Draw(column)
-    draw.text((0, 2), title, fill=INK, font=font(24), anchor="lt")
+    draw.text((0, 4), title, fill=INK, font=font(HEADING), anchor="lt")
     free, total = (sum(getattr(r, k) for r in plan.regions) for k in ("free_cells", "total_cells"))
     seen = f", {100 * free / total:.0f} % seen" if total else ""
     facts = f"{len(plan.regions)} regions, {sum(r.area for r in plan.regions):.1f} m²{seen}"
-    draw_text(draw, (0, TITLE - 16), facts, 16, INK)
+    draw_text(draw, (0, TITLE - 26), facts, FACTS, MUTED)
     draw.rectangle([0, TITLE + view.height + GAP, view.width - 1, column.height - 1], outline=FRAME)
     return column
