@@ -133,7 +133,9 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
 def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     """Figure (c)."""
     view = view or fit_view(plan_bounds(plan))
-    walls, names = poche(plan), [_place_name(view, region) for region in plan.regions]
+    walls = poche(plan)
+    doors = [opening.polygon for opening in walls.openings]
+    names = [_place_name(view, region, doors) for region in plan.regions]
     image, draw = finish(_ground(plan, view, walls, names), _ground_colours(), view)
     for region in plan.regions:
         _draw_sides(draw, view, region)
@@ -250,8 +252,11 @@ def _draw_door(draw: Any, view: View, opening: Opening) -> None:
         draw.line([tuple(p) for p in view.pixels(middle).round().tolist()], fill=INK, width=SHUT_LEAF)
 
 
-def _place_name(view: View, region: Region) -> Placed:
-    """The number or name, and the area where there is room for it."""
-    floor = shapely.transform(region.polygon, view.pixels)
+def _place_name(view: View, region: Region, doors: Sequence[Any]) -> Placed:
+    """The number or name, and the area where there is room for it, off the doors."""
+    near = [door for door in doors if region.polygon.intersects(door)]
+    rest = region.polygon.difference(shapely.union_all(near)) if near else region.polygon
+    free = max(shapely.get_parts(rest), key=lambda part: part.area, default=region.polygon)
     lines = (Line(region.name, NAME, "name"), Line(f"{region.area:.1f} m²", AREA, "area"))
-    return place(lines, floor, PAD)
+    floor = shapely.transform(region.polygon, view.pixels)
+    return place(lines, shapely.transform(free, view.pixels), PAD, floor)
