@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides
 from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, RegionSide
 from floorplan_core.stages.side_measures import REACH, measure_sides, side_targets
+from floorplan_core.stages.structure import LOW
 
 Float = NDArray[np.float64]
 Corner = Sequence[float] | Float  # x, y
@@ -30,6 +31,7 @@ class Surfaces:
     first: NDArray[np.int64]  # (5,) where the rows of each facing begin
     placed: Float  # (H, 5) facing, offset, start, end, plane of the walls moved or added by hand
     panes: Float  # (P, 4) facing, offset, start, end of what was seen in recesses
+    low: Float  # (L, 4) the same of what is too short and low to be told from furniture, by offset
 
 
 def _tabulate(planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) -> Surfaces:
@@ -45,12 +47,14 @@ def _tabulate(planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) 
     seen = [(s.offset, s.start, s.end, s.residual, number[s.plane]) for s in walls]
     placed = [(p.facing, p.offset, s, e, number[p.id]) for p in by_hand for s, e in p.walls]
     panes = [(s.facing, s.offset, s.start, s.end) for s in segments if s.plane in recesses]
+    low = sorted((s.facing, s.offset, s.start, s.end) for s in segments if s.evidence == (LOW,))
     return Surfaces(
         names,
         np.array(seen, dtype=np.float64).reshape(-1, 5),
         np.searchsorted([s.facing for s in walls], np.arange(len(Facing) + 1)),
         np.array(placed, dtype=np.float64).reshape(-1, 5),
         np.array(panes, dtype=np.float64).reshape(-1, 4),
+        np.array(low, dtype=np.float64).reshape(-1, 4),
     )
 
 
@@ -75,6 +79,19 @@ class WallSurfaces:
         low, high = sorted((a[1 - facing.axis], b[1 - facing.axis]))
         runs = rows[np.abs(rows[:, 0] - a[facing.axis]) < REACH, 1:3].clip(low, high)
         return runs[runs[:, 1] > runs[:, 0]]
+
+    def ahead(self, facing: Facing, start: float, end: float) -> tuple[Float, Float]:
+        """(K, 2) offset of each wall surface seen of a facing, and metres of it between two places along it.
+
+        And (L, 2) the same of what may be wall or furniture.
+        """
+        of = slice(*self._table.first[[facing, facing + 1]])
+        low = self._table.low[self._table.low[:, 0] == facing]
+        found = []
+        for offset, first, last in (self._table.seen[of, :3].T, low[:, 1:].T):
+            common = np.minimum(last, end) - np.maximum(first, start)
+            found.append(np.column_stack([offset, common])[common > 0])
+        return found[0], found[1]
 
     def measure(self, corners_: Float, doors: Float) -> list[tuple[float, str, float | None]]:
         """Of each side of a ring: the share that was seen, the plane that explains most of it, the residual.

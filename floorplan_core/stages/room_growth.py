@@ -5,9 +5,10 @@ of its true walls. These rules complete it, each only over space that nothing se
 between guessed sides is filled; a guessed side goes out to the next wall or region ahead, one wall's
 thickness before it where only the other face was seen; where there is none, to the next plane of the building
 that faces the same way; where nothing is known, to the usual width of the building's rooms. A side that was
-borrowed from a far plane comes back first to what was seen, where a room would be deeper beyond that than
-rooms are; one that stops short of a wall ahead goes on to it where the strip between has no door and is too
-narrow for a room. In and out: disjoint polygons. Cost: guessed sides times walls.
+borrowed from a far plane comes back first: to a surface that faces the room behind all that was seen of it,
+or to what was seen, where a room would be deeper beyond that than rooms are; one that stops short of a wall
+ahead goes on to it where the strip between has no door and is too narrow for a room. In and out: disjoint
+polygons. Cost: guessed sides times walls.
 """
 
 from __future__ import annotations
@@ -39,7 +40,10 @@ _WHOLE, _ENOUGH = 0.8, 3  # share of the boundary that was seen of a whole room;
 _LONG = 2.0  # times the usual width: a longer side is no room's
 _STRIP = 0.4  # of the usual width: a strip without a door that is no wider is no room of its own
 _BESIDE = 0.3  # m between a strip of floor and the middle of a wall with a door to it
+_FACED = 0.3  # share of a side that a surface behind all that was seen must face to be the wall there
+_CABINET = 0.7  # m from the front of furniture, within which the wall is that it stands at
 _EXACT = 1e-6  # m
+_FACING = (Facing.EAST, Facing.NORTH, Facing.WEST, Facing.SOUTH)  # of the sides at x0, y0, x1, y1 of a room
 
 
 @dataclass(frozen=True)
@@ -149,9 +153,9 @@ class RoomGrower:
         polygon = shapely.orient_polygons(polygon)
         if not self._is_guessed(polygon):
             return polygon
-        back = self._pull_back(polygon)
+        back, closed = self._pull_back(polygon)
         filled = self._fill_notches(back, others)
-        pushed = self._push_sides(filled, others)
+        pushed = self._push_sides(filled, others, closed)
         whole = _largest(pushed)
         if filled is back and pushed is filled:
             return whole  # the notches that it has are those that were just left
@@ -178,22 +182,45 @@ class RoomGrower:
                 polygon = _largest(polygon.union(notch))
         return polygon
 
-    def _pull_back(self, polygon: Any) -> Any:
-        """The polygon without what lies farther beyond all that was seen of it than a room is deep."""
-        if not self._deep:
-            return polygon
-        x0, y0, x1, y1 = polygon.bounds
-        seen = self._seen_bounds(polygon)
-        if seen is None:
-            return polygon
+    def _pull_back(self, polygon: Any) -> tuple[Any, dict[Facing, float]]:
+        """The polygon without what lies behind all that was seen of it and a surface that faces it there, or
+        farther beyond it than a room is deep; and where such surfaces are: facing and offset.
+        """
+        free, own = self._free_bounds(polygon), polygon.bounds
+        if free is None:
+            return polygon, {}
+        seen = self._seen_bounds(polygon, free)
+        surfaces = [self._surface(k, own, free[k]) for k in range(4)]
         u0, v0, u1, v1 = (
-            own if abs(own - known) <= self._deep else known
-            for own, known in zip((x0, y0, x1, y1), seen, strict=True)
+            at if at is not None and abs(at - own[k]) > ON else self._not_too_deep(own[k], seen[k])
+            for k, at in enumerate(surfaces)
         )
-        return _largest(polygon.intersection(shapely.box(u0, v0, u1, v1)))
+        closed = {f: at for f, at in zip(_FACING, surfaces, strict=True) if at is not None}
+        return _largest(polygon.intersection(shapely.box(u0, v0, u1, v1))), closed
 
-    def _seen_bounds(self, polygon: Any) -> tuple[float, float, float, float] | None:
-        """x0, y0, x1, y1 of what was seen of a room: its free cells and the walls along its sides."""
+    def _not_too_deep(self, own: float, seen: float) -> float:
+        """The side of a room where it is, unless that is farther beyond what was seen than a room is deep."""
+        return own if not self._deep or abs(own - seen) <= self._deep else seen
+
+    def _surface(self, k: int, own: tuple[float, ...], free: float) -> float | None:
+        """Where a surface faces side ``k`` of a room with bounds ``own`` beyond all that was seen ``free``.
+
+        It may be no wall run: above a cabinet, or beside a door's leaf, too little of it shows. Walls come
+        before what may be furniture; of the latter the last that was seen past the first.
+        """
+        axis, out = k % 2, 1.0 if k >= 2 else -1.0
+        start, end = own[1 - axis], own[3 - axis]
+        for rows, depth in zip(self._walls.ahead(_FACING[k], start, end), (0.0, _CABINET), strict=True):
+            offset, faced = rows.T
+            beyond, before = (offset - free) * out, (own[k] - offset) * out
+            closing = (beyond > -self._grid.cell) & (before > -depth - ON) & (faced > _FACED * (end - start))
+            if closing.any():
+                first = beyond[closing].min()
+                return float(free + out * beyond[closing & (beyond <= first + depth)].max())
+        return None
+
+    def _free_bounds(self, polygon: Any) -> tuple[float, float, float, float] | None:
+        """x0, y0, x1, y1 of what was seen free in a room."""
         grid = self._grid
         window, inside = polygon_window(polygon, grid.origin, grid.cell, grid.states.shape)
         rows, columns = np.nonzero(grid.universe[window] & inside)
@@ -202,6 +229,11 @@ class RoomGrower:
         corner = grid.origin + grid.cell * np.array([window[1].start, window[0].start])
         low = corner + grid.cell * np.array([columns.min(), rows.min()])
         high = corner + grid.cell * np.array([columns.max() + 1, rows.max() + 1])
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    def _seen_bounds(self, polygon: Any, free: tuple[float, ...]) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of what was seen of a room: its free cells and the walls along its sides."""
+        low, high = np.array(free[:2]), np.array(free[2:])
         for side in self._sides(polygon):
             a, b = np.array(side.start), np.array(side.end)
             along = int(abs(a[0] - b[0]) < abs(a[1] - b[1]))
@@ -211,10 +243,11 @@ class RoomGrower:
                 high[1 - along] = max(high[1 - along], a[1 - along])
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
-    def _push_sides(self, polygon: Any, others: Neighbours) -> Any:
-        """The polygon with each guessed side pushed out as far as it goes."""
+    def _push_sides(self, polygon: Any, others: Neighbours, closed: dict[Facing, float]) -> Any:
+        """The polygon with each guessed side pushed out as far as it goes, but past no ``closed`` surface."""
         for front in list(self._frontiers(polygon)):
-            depth = self._depth(front, polygon, others)
+            to_surface = (closed.get(front.facing, np.inf * front.out) - front.at) * front.out
+            depth = min(self._depth(front, polygon, others), to_surface)
             if depth > ON and self._unknown(front.ahead(depth), polygon, others):
                 polygon = polygon.union(front.ahead(depth))
         return polygon

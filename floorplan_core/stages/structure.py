@@ -22,7 +22,7 @@ _BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
 _OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WELL_SEEN = 0.7  # m of the height of a patch seen on average: of glass and reveals it is less
 _LEAF = 1.0  # m: a shorter surface may be the leaf of a door that stands open
-_LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
+LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
 _FLUSH = 0.02  # m between two pieces of one face
 _DOORWAY = 1.3  # m between the jambs of a door
 ALL_LEVELS = np.uint64((1 << 64) - 1)
@@ -76,7 +76,7 @@ def _judgement(fine: float, rows: int, tall: int, at_top: int, looked_over: int)
         return True, ("above furniture",)
     if rows * fine >= 1.0 and over < 0.1:
         return True, ("long, top not seen",)
-    return False, (_LOW,)
+    return False, (LOW,)
 
 
 def in_line(judged: list[Judgement], patches: Patches, offset: Float, fine: float) -> list[Judgement]:
@@ -89,7 +89,7 @@ def in_line(judged: list[Judgement], patches: Patches, offset: Float, fine: floa
     structure = np.array([found for found, _ in judged], dtype=bool)
     out = list(judged)
     for k in range(len(judged)):
-        if judged[k] == (False, (_LOW,)):
+        if judged[k] == (False, (LOW,)):
             gap = np.maximum(start - end[k], start[k] - end)
             if (structure & (np.abs(offset - offset[k]) <= _FLUSH) & (gap <= _DOORWAY)).any():
                 out[k] = True, ("in line with a wall",)

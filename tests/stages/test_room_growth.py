@@ -26,7 +26,11 @@ def grow(seen: Any, planes: list[LayoutPlane], others: Any = NOTHING, outdoors: 
 
 
 def grower(
-    planes: list[LayoutPlane], outdoors: Any = None, doors: tuple[Door, ...] = (), seen: Any = None
+    planes: list[LayoutPlane],
+    outdoors: Any = None,
+    doors: tuple[Door, ...] = (),
+    seen: Any = None,
+    loose: tuple[LayoutSegment, ...] = (),
 ) -> RoomGrower:
     segments = [
         LayoutSegment(s, p.facing, p.offset, *p.walls[0], 0.0, 2.5, 5.0, 100, 0.01, 0.001, plane=p.id)
@@ -40,7 +44,21 @@ def grower(
             x0, y0, x1, y1 = (round((v - o) / 0.1) for v, o in zip(box, (-1, low, -1, low), strict=True))
             states[y0:y1, x0:x1], universe[y0:y1, x0:x1] = FREE, inside
     cells = OccupancyGrid(np.array([-1.0, low]), 0.1, states, universe, 1.2)
-    return RoomGrower(planes, WallSurfaces(planes, segments), doors, cells, 0.4)
+    return RoomGrower(planes, WallSurfaces(planes, [*segments, *loose]), doors, cells, 0.4)
+
+
+def piece(offset: float, start: float, end: float, why: str = "low") -> LayoutSegment:
+    """A low surface that looks into the room from the east, which made no plane."""
+    return LayoutSegment(
+        f"low{offset}",
+        Facing.WEST,
+        offset,
+        start,
+        end,
+        *(0.2, 1.8, 1.0, 100, 0.01, 0.001),
+        structural=False,
+        evidence=(why,),
+    )
 
 
 # The room is 0 .. 5 by 0 .. 4; its west, south and north sides were seen.
@@ -178,3 +196,26 @@ def test_stray_rays_are_no_open_air() -> None:
     planes = [wall("w", Facing.WEST, 6, 0, 4)]
     grown = grow(shapely.box(1, 0, 4, 4), planes, outdoors=(4.2, 1.0, 4.8, 1.6))
     assert grown.bounds[2] == pytest.approx(6)
+
+
+def test_a_guessed_side_comes_back_to_what_was_seen_to_close_the_room() -> None:
+    """The side was borrowed from a wall 2 m beyond the last free cell; there stands something low."""
+    borrowed, beyond = shapely.box(0, 0, 5, 4), [*ROUND, wall("far", Facing.WEST, 5.0, 20.0, 24.0)]
+    seen, behind = (0.0, 0.0, 3.0, 4.0), piece(3.5, 2.0, 3.5)
+
+    def east(*loose: LayoutSegment) -> float:
+        grown = grower(beyond, seen=seen, loose=loose).grow(borrowed, Neighbours([NOTHING]))
+        return float(grown.bounds[2])
+
+    assert east() == pytest.approx(5.0)
+    assert east(piece(3.05, 0.5, 2.0)) == pytest.approx(3.05)
+    assert east(piece(3.05, 0.5, 2.0), behind) == pytest.approx(3.5)  # what it stands at
+    assert east(piece(3.05, 0.5, 1.5)) == pytest.approx(5.0)  # too short for the side
+    assert east(piece(3.05, 0.5, 2.0, "looked over")) == pytest.approx(5.0)  # air behind it
+    assert east(piece(2.0, 0.5, 2.0)) == pytest.approx(5.0)  # the room goes on behind it
+
+
+def test_a_guessed_side_is_pushed_past_no_surface_that_faces_the_room() -> None:
+    beyond = [*ROUND, wall("beyond", Facing.EAST, 5.0 + THICK, 0.0, 4.0)]
+    free = grower(beyond, seen=(0.0, 0.0, 3.0, 4.0), loose=(piece(3.4, 0.5, 2.0),))
+    assert free.grow(PART, Neighbours([NOTHING])).bounds[2] == pytest.approx(3.4)
