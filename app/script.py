@@ -54,15 +54,20 @@ class ScriptedApplication:
 
     def click(self, pane: str, x: float, y: float) -> None:
         """Click at plan coordinates (metres, manhattan frame) in a 2D pane, with the tool that is on."""
-        from PySide6.QtCore import Qt
+        from PySide6.QtCore import QPointF, Qt
         from PySide6.QtTest import QTest
 
+        from floorcast_app.viewports.canvas import PlanCanvas
+
         canvas = self.window.pane(pane)
-        if not hasattr(canvas, "pixel_of"):
+        if not isinstance(canvas, PlanCanvas):
             raise UsageError(f"Nothing can be clicked by coordinates in the pane {pane!r}.")
-        where = canvas.pixel_of(x, y)
-        QTest.mouseMove(canvas.viewport(), where)
-        QTest.mouseClick(canvas.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, where)
+        _settle()
+        while not canvas.ready:  # what cannot be seen yet cannot be clicked
+            QTest.qWait(20)
+        where = QPointF(*canvas.camera.point(x, y)).toPoint()
+        QTest.mouseMove(canvas, where)
+        QTest.mouseClick(canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, where)
         self.wait()
 
     def _ended(self, error: Exception | None) -> None:

@@ -32,7 +32,7 @@ DATA = {"Action", "Pane", "Column", "_word", "_tool"}  # classes and helpers who
 TABLES = {  # module-level tables whose strings are shown: all of them, or the values of a dict
     "LAYER_TEXTS", "COLOUR_TEXTS", "SECTION_FIELDS", "FACINGS", "TABS", "TITLES", "TIPS", "STAGES",
     "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
-    "SUBMENUS", "hint", "area_hint", "nowhere", "empty",  # of tools and plan panes
+    "SUBMENUS", "hint", "area_hint", "plane_hint", "door_hint", "nowhere", "empty",  # of tools and plan panes
 }  # fmt: skip
 CORE = (  # modules of the core whose sentences reach the window as warnings or assumptions
     "readers/axes.py",

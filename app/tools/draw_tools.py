@@ -11,6 +11,7 @@ from floorcast_app.tools.gestures import SNAP, At, Mark, Point, Tool, Typed, dis
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
+FAR = 1000.0  # metres: no region is longer
 SHORTEST = 0.05  # metres: two clicks nearer than this are one
 
 
@@ -144,4 +145,22 @@ class SplitTool(TwoPointTool):
         self.workbench.try_run("correct.split", start=start, end=end)
 
     def line(self, start: Point, end: Point) -> tuple[Mark, ...]:
-        return (Mark("dashes", (start, end), self.role),)
+        return (Mark("dashes", self._across(start, end), self.role),)
+
+    def _across(self, start: Point, end: Point) -> tuple[Point, Point]:
+        """The whole of the cut, from side to side of the region that the line is in."""
+        import shapely
+
+        away, middle = distance(start, end), ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+        source = self.source
+        if source is None or away < SHORTEST:
+            return start, end
+        far = tuple(FAR / away * (e - s) for s, e in zip(start, end, strict=True))
+        line = shapely.LineString([(middle[0] + k * far[0], middle[1] + k * far[1]) for k in (-1, 1)])
+        chords = [c for r in source.drawn.regions for c in shapely.get_parts(r.polygon.intersection(line))]
+        here = shapely.Point(middle)
+        chord = next((c for c in chords if c.length > 0 and c.distance(here) < SHORTEST), None)
+        if chord is None:
+            return start, end
+        (ax, ay), (bx, by) = shapely.get_coordinates(chord)[[0, -1]].tolist()
+        return (ax, ay), (bx, by)

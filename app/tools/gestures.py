@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 Point = tuple[float, float]  # metres, manhattan frame
+WAYS = ("x", "rising", "y", "falling")  # as a cursor shows them, by eighths of a turn from x
 
 SNAP = 10.0  # pixels within which a click snaps
 GRIP = 8.0  # pixels around the end of a door that can be dragged
@@ -125,6 +126,10 @@ class Tool:
     def move(self, at: At) -> None:
         """The pointer moved with no button down."""
 
+    def cursor_at(self, at: At) -> str:
+        """The cursor over a place: "arrow", "cross", or which way something goes, one of :data:`WAYS`."""
+        return self.cursor
+
     def double(self, at: At) -> bool:
         """A double click; False where the pane shall zoom to what lies there."""
         return False
@@ -140,6 +145,11 @@ class Tool:
     def marks(self) -> tuple[Mark, ...]:
         """What to draw over the panes."""
         return ()
+
+
+def way(angle: float) -> str:
+    """The one of :data:`WAYS` that is nearest to a direction, radians from x."""
+    return WAYS[round(angle / (math.pi / 4)) % len(WAYS)]
 
 
 def straight(start: Point, end: Point, turn: float = 0.0) -> Point:

@@ -35,6 +35,9 @@ class GripTool(SelectTool):
     def move(self, at: At) -> None:
         self._drawing.move(at)
 
+    def cursor_at(self, at: At) -> str:
+        return self.cursor if self._drawing.busy else super().cursor_at(at)
+
     def click(self, at: At) -> None:
         if not self._drawing.busy and at.item is not None and at.item.kind == self.kind:
             self.workbench.selection.select(at.item, at.ctrl)

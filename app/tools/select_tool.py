@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import numpy as np
 from floorcast_app import format
 from floorcast_app.layers.snap_index import snap_offset
 from floorcast_app.selection import Item
-from floorcast_app.tools.gestures import GRIP, SNAP, At, Mark, Point, Tool, Typed, distance
+from floorcast_app.tools.gestures import GRIP, SNAP, At, Mark, Point, Tool, Typed, distance, way
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.layout import turned
 
@@ -43,13 +44,30 @@ class SelectTool(Tool):
     """Click selects; Ctrl adds; what is selected can be dragged; a typed number sets its offset or width."""
 
     name = "select"
-    hint = ""
+    plane_hint = "Drag the wall, or type its offset (@0.05 moves it by that)."
+    door_hint = "Drag an end of the door, or type its width."
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._held: PlaneDrag | DoorDrag | None = None
         self._moving = False
         self._typed = Typed()
+
+    @property
+    def hint(self) -> str:  # type: ignore[override]
+        """What can be done with the one thing that is selected."""
+        held = self._selected()
+        if held is None:
+            return ""
+        return self.plane_hint if isinstance(held, PlaneDrag) else self.door_hint
+
+    def cursor_at(self, at: At) -> str:
+        held = self._held or self._grip(at)
+        if held is None:
+            return self.cursor
+        if isinstance(held, PlaneDrag):
+            return way(held.plane.turn + held.plane.facing.axis * math.pi / 2)
+        return way(held.door.turn + (1 - held.door.axis) * math.pi / 2)
 
     @property
     def busy(self) -> bool:

@@ -32,6 +32,7 @@ from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import At, Point, Tool
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
+from floorcast_app.viewports.cursors import show_cursor
 from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
 from floorcast_app.viewports.plan_camera import STEP, Camera, framed, panned, zoomed
@@ -187,8 +188,7 @@ class PlanCanvas(QWidget):
             self._refresh()
 
     def _tool_changed(self) -> None:
-        cross = self.workbench.toolbox.tool.cursor == "cross"
-        self.setCursor(Qt.CursorShape.CrossCursor if cross else Qt.CursorShape.ArrowCursor)
+        show_cursor(self, self.workbench.toolbox.tool.cursor)
         self.update()
 
     def _pointer_moved(self, x: float | None, y: float | None) -> None:
@@ -307,6 +307,7 @@ class PlanCanvas(QWidget):
             at = self._at(event)
             self.workbench.selection.hover(at.item)
             self.workbench.toolbox.move(at)
+            show_cursor(self, self.workbench.toolbox.tool.cursor_at(at))
             return
         start, button = self._press
         if not self._moved and (event.position() - start).manhattanLength() <= CLICK:

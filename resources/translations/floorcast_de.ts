@@ -619,12 +619,20 @@
    <translation>Eine gewählte Wand ziehen</translation>
   </message>
   <message>
+   <source>Drag an end of the door, or type its width.</source>
+   <translation>Ein Ende der Tür ziehen oder ihre Breite tippen.</translation>
+  </message>
+  <message>
    <source>Drag the end of a selected door</source>
    <translation>Das Ende einer gewählten Tür ziehen</translation>
   </message>
   <message>
    <source>Drag the selected plane, or type its offset (@0.05 moves it by that). Two clicks add a plane.</source>
    <translation>Die gewählte Ebene ziehen oder ihre Lage tippen (@0.05 verschiebt um so viel). Zwei Klicks fügen eine hinzu.</translation>
+  </message>
+  <message>
+   <source>Drag the wall, or type its offset (@0.05 moves it by that).</source>
+   <translation>Die Wand ziehen oder ihre Lage tippen (@0,05 verschiebt sie um so viel).</translation>
   </message>
   <message>
    <source>Draw a wall that the machine does not know: two clicks.</source>

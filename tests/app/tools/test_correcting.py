@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
@@ -286,3 +287,37 @@ def test_every_tool_has_an_action_with_its_key(drawn, name, key):
     drawn.run(action.id)
     assert drawn.tool == drawn.toolbox.tool.name == name
     assert action.checked(drawn)
+
+
+def test_the_cursor_shows_which_way_a_wall_goes(planes, drawn):
+    plane = drawn.find(drawn.selection.item)
+    move(planes, pixel(planes, grip(plane)))
+    wanted = (Qt.CursorShape.SizeHorCursor, Qt.CursorShape.SizeVerCursor)[plane.facing.axis]
+    assert planes.cursor().shape() == wanted
+    assert "type its offset" in drawn.toolbox.tool.hint
+    move(planes, pixel(planes, moved(grip(plane), plane.facing.axis, 1.0)))
+    assert planes.cursor().shape() == Qt.CursorShape.ArrowCursor
+    drawn.selection.select(None)
+    assert drawn.toolbox.tool.hint == ""
+
+
+def test_the_cursor_shows_which_way_the_end_of_a_door_goes(pane, drawn):
+    door = drawn.plan.doors[0]
+    drawn.selection.select(Item("door", door.id))
+    drawn.view.set(centre=tuple(door.line().mean(axis=0).tolist()), span=4.0)
+    move(pane, pixel(pane, tuple(door.line()[1].tolist())))
+    wanted = (Qt.CursorShape.SizeVerCursor, Qt.CursorShape.SizeHorCursor)[door.axis]
+    assert pane.cursor().shape() == wanted
+
+
+def test_a_split_shows_all_of_the_cut_before_it_is_made(pane, drawn):
+    region = max(drawn.plan.regions, key=lambda r: r.area)
+    middle = region.polygon.representative_point()
+    drawn.set_tool("split")
+    click(pane, (middle.x, middle.y))
+    move(pane, pixel(pane, (middle.x + 0.6, middle.y + 0.02)))
+    line = next(m for m in drawn.toolbox.marks() if m.kind == "dashes")
+    (ax, ay), (bx, by) = line.points
+    assert abs(bx - ax) > 1.0 and ay == pytest.approx(by)
+    boundary = region.polygon.boundary
+    assert boundary.distance(shapely.Point(ax, ay)) < 1e-6 > boundary.distance(shapely.Point(bx, by))
