@@ -21,6 +21,7 @@ Int = NDArray[np.int64]
 
 WIDE = 20_000.0  # m2 of a site's bounding box, from which islands are looked for
 _TOO_WIDE = 100_000.0  # m2: such a site may be refused for its size, so that it is rid of stray points
+_SITE = 2_000_000.0  # m2 of a site's box: its occupancy grid takes 400 MB then, and a larger site is refused
 _SQUARE = 5.0  # m, side of the squares in which surfels are counted
 _STRAY = 20  # surfels of a square: fewer bridge no gap
 _NEXT = 4  # squares from one to another of the same island: gaps of less than 20 m part nothing
@@ -58,7 +59,8 @@ def is_wide(sample: Surfels, frame: ManhattanFrame) -> bool:
 def find_islands(surfels: SurfelMap, frame: ManhattanFrame) -> tuple[Island, ...]:
     """The islands, most surfels first, ties to the smaller x.
 
-    () where there are not two of them; one where only stray points make the site wider than a plan can be.
+    () where there are not two of them, or they lie farther apart than one plan can show; one where only stray
+    points make the site wider than a plan can be.
     """
     squares, counts = _squares(surfels, frame)
     too_wide, dense = _area(squares) > _TOO_WIDE, counts >= _STRAY
@@ -66,7 +68,7 @@ def find_islands(surfels: SurfelMap, frame: ManhattanFrame) -> tuple[Island, ...
     label = _connected(squares)
     total = np.bincount(label, weights=counts).astype(np.int64)
     kept = [k for k in np.argsort(-total, kind="stable").tolist() if total[k] >= _LEAST]
-    if len(kept) < (1 if too_wide else 2):
+    if len(kept) < (1 if too_wide else 2) or _area(squares[np.isin(label, kept)]) > _SITE:
         return ()
     return tuple(Island(squares[label == k], int(total[k]), frame.rotation[:2]) for k in kept)
 
