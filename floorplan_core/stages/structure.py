@@ -21,6 +21,7 @@ Float = NDArray[np.float64]
 _BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
 _OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WELL_SEEN = 0.7  # m of the height of a patch seen on average: of glass and reveals it is less
+_BEFORE = 0.25  # of a column: with so much of it before the face it does not tell what is behind
 _LEAF = 1.0  # m: a shorter surface may be the leaf of a door that stands open
 LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
 _FLUSH = 0.02  # m between two pieces of one face
@@ -104,12 +105,16 @@ def _looked_over(
     Two columns behind it are asked. The nearer may lie before a wall that noise has moved: for patches that
     are ``surely`` (K,) surfaces, longer than a door's leaf and higher than furniture, both must be free.
     Else the nearer is enough, for shallow things before a wall; the farther may lie on the other side of a
-    thin wall: alone it counts only where the wall's other face was not seen to go on above in between.
+    thin wall: alone it counts only where the wall's other face was not seen to go on above in between. A
+    nearer column that begins well before the face is free there by the air of the room: it is not asked.
     """
     a, row = facing.axis, patches.row
     grid = evidence.free if a == 0 else evidence.free.T
     near = offset[:, None] - facing.sign * np.array([0.5, 1.5]) * evidence.cell
-    iu = np.clip(((near - evidence.origin[a]) / evidence.cell).astype(int), 0, grid.shape[1] - 1)
+    cells = np.floor((near - evidence.origin[a]) / evidence.cell)
+    edge = evidence.origin[a] + (cells[:, 0] + (facing.sign > 0)) * evidence.cell  # towards the room
+    mixed = (edge - offset) * facing.sign > _BEFORE * evidence.cell
+    iu = np.clip(cells.astype(int), 0, grid.shape[1] - 1)
     iu, iv = np.repeat(iu, patches.lengths, axis=0), np.clip(row // 2, 0, grid.shape[0] - 1)
     ceiling = evidence.frame.ceiling_z
     limit = 2.6 if ceiling is None else ceiling - evidence.frame.floor_z - 0.1
@@ -117,7 +122,9 @@ def _looked_over(
     above = (ALL_LEVELS << (top + np.uint64(2))) & height_mask(0.5, limit)
     goes_on = count_bits(_surfaces_behind(evidence, facing, patches, offset) & above) >= _OTHER_FACE
     nearer, farther = grid[iv, iu[:, 0]] & above, grid[iv, iu[:, 1]] & above
-    either = nearer | np.where(goes_on, np.uint64(0), farther)
+    beyond = np.where(goes_on, np.uint64(0), farther)
+    nearer = np.where(np.repeat(mixed, patches.lengths), beyond, nearer)
+    either = nearer | beyond
     return np.asarray(np.where(np.repeat(surely, patches.lengths), nearer & farther, either) != 0)
 
 

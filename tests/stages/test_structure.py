@@ -22,7 +22,23 @@ from tests.drawn_cells import seen_free
     ],
 )
 def test_a_wall_is_looked_over_where_both_columns_behind_it_are_free(columns, rows, levels, structure):
-    """Surfaces at x = 1 m that face east and reach 2.3 m, below a ceiling of 2.8 m."""
+    assert _is_structure(columns, rows, levels, at=1.0) == structure
+
+
+@pytest.mark.parametrize(
+    ("columns", "at", "structure"),
+    [
+        ((9,), 0.98, False),  # column 9, up to 1.0 m, is nearly all behind the face
+        ((9,), 0.96, True),  # much of it is before the face, where the room is free
+        ((9, 8), 0.96, False),  # and air behind it
+    ],
+)
+def test_a_column_that_begins_before_a_face_does_not_tell_what_is_behind(columns, at, structure):
+    assert _is_structure(columns, 16, 21, at) == structure
+
+
+def _is_structure(columns: tuple[int, ...], rows: int, levels: int, at: float) -> bool:
+    """A surface at x = ``at`` m that faces east and reaches 2.3 m, below a ceiling of 2.8 m."""
     free = np.zeros((20, 20), dtype=np.uint64)
     free[:, list(columns)] = height_mask(0, 2.8)
     seen = np.full(rows, height_mask(2.3 - 0.1 * levels, 2.3), dtype=np.uint64)
@@ -30,8 +46,8 @@ def test_a_wall_is_looked_over_where_both_columns_behind_it_are_free(columns, ro
         *(np.array([0]), np.array([0, rows]), np.arange(rows), seen, np.array([rows * levels * 0.005]))
     )
     evidence = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 2.8))
-    ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([1.0]), SegmentsConfig())
-    assert found == structure
+    ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([at]), SegmentsConfig())
+    return found
 
 
 @pytest.mark.parametrize(
