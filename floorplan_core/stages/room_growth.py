@@ -196,7 +196,11 @@ class RoomGrower:
             for k, at in enumerate(surfaces)
         )
         closed = {f: at for f, at in zip(_FACING, surfaces, strict=True) if at is not None}
-        return _largest(polygon.intersection(shapely.box(u0, v0, u1, v1))), closed
+        rest = polygon.intersection(shapely.box(u0, v0, u1, v1))
+        cell = self._grid.cell
+        if min(u1 - u0, v1 - v0) < cell or rest.area < cell**2:
+            return polygon, {}  # surfaces on both sides of a strip that a few rays passed
+        return _largest(rest), closed
 
     def _not_too_deep(self, own: float, seen: float) -> float:
         """The side of a room where it is, unless that is farther beyond what was seen than a room is deep."""

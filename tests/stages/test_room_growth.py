@@ -215,6 +215,14 @@ def test_a_guessed_side_comes_back_to_what_was_seen_to_close_the_room() -> None:
     assert east(piece(2.0, 0.5, 2.0)) == pytest.approx(5.0)  # the room goes on behind it
 
 
+def test_surfaces_that_leave_nothing_of_a_room_do_not_close_it() -> None:
+    """A few rays passed along the wall in the west, and something stands there."""
+    beyond = [*ROUND, wall("far", Facing.WEST, 5.0, 20.0, 24.0)]
+    grower_of_it = grower(beyond, seen=(0.0, 0.0, 0.1, 4.0), loose=(piece(0.02, 0.5, 2.0),))
+    grown = grower_of_it.grow(shapely.box(0, 0, 5, 4), Neighbours([NOTHING]))
+    assert grown.bounds == pytest.approx((0, 0, 5, 4))
+
+
 def test_a_guessed_side_is_pushed_past_no_surface_that_faces_the_room() -> None:
     beyond = [*ROUND, wall("beyond", Facing.EAST, 5.0 + THICK, 0.0, 4.0)]
     free = grower(beyond, seen=(0.0, 0.0, 3.0, 4.0), loose=(piece(3.4, 0.5, 2.0),))
