@@ -12,25 +12,22 @@ from PySide6.QtGui import QDropEvent, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from floorcast_app.main import make_application, make_window
+from floorcast_app.main import make_window
 from floorcast_app.main_window import MainWindow
 from floorcast_app.panes import PANES
 from floorcast_app.script import ScriptedApplication
 from floorplan_core.errors import UsageError
 from tests.app.pump import SAMPLE
+from tests.app.windows import open_window
 
 
 @pytest.fixture(scope="module")
 def script() -> Iterator[ScriptedApplication]:
     """A window with the bundled survey planned, driven by actions."""
-    make_application()
-    window = make_window(unattended=True)
-    window.resize(1440, 900)
-    window.show()
-    scripted = ScriptedApplication(window)
-    scripted.run("file.open", path=SAMPLE)
-    yield scripted
-    window.close()
+    with open_window() as window:
+        scripted = ScriptedApplication(window)
+        scripted.run("file.open", path=SAMPLE)
+        yield scripted
 
 
 @pytest.fixture

@@ -9,12 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from pytestqt.qtbot import QtBot
 
-from floorcast_app.main import make_application, make_window
 from floorcast_app.script import ScriptedApplication
 from floorplan_core.errors import UsageError
 from tests.app.pump import SAMPLE
+from tests.app.windows import open_window
 
 
 def gui(script: Path) -> subprocess.CompletedProcess[str]:
@@ -98,19 +97,14 @@ def test_what_goes_wrong_is_one_sentence_and_a_status(tmp_path: Path) -> None:
     assert gui(tmp_path / "missing.py").returncode == 3
 
 
-def test_a_script_clicks_at_places_of_the_plan(qtbot: QtBot) -> None:
-    make_application()
-    window = make_window(unattended=True)
-    qtbot.addWidget(window)
-    window.resize(1200, 800)
-    window.show()
-    app = ScriptedApplication(window)
-    app.run("file.open_sample")
-    app.run("view.fit")
-    region = max(app.workbench.plan.regions, key=lambda r: r.area)
-    inside = region.polygon.representative_point()
-    app.click("floor_plan", inside.x, inside.y)
-    assert [(i.kind, i.id) for i in app.workbench.selection.items] == [("region", region.id)]
-    with pytest.raises(UsageError, match="Nothing can be clicked by coordinates in the pane 'history'"):
-        app.click("history", 0.0, 0.0)
-    window.close()
+def test_a_script_clicks_at_places_of_the_plan() -> None:
+    with open_window(1200, 800) as window:
+        app = ScriptedApplication(window)
+        app.run("file.open_sample")
+        app.run("view.fit")
+        region = max(app.workbench.plan.regions, key=lambda r: r.area)
+        inside = region.polygon.representative_point()
+        app.click("floor_plan", inside.x, inside.y)
+        assert [(i.kind, i.id) for i in app.workbench.selection.items] == [("region", region.id)]
+        with pytest.raises(UsageError, match="Nothing can be clicked by coordinates in the pane 'history'"):
+            app.click("history", 0.0, 0.0)

@@ -10,22 +10,18 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMenu, QToolButton
 from pytestqt.qtbot import QtBot
 
-from floorcast_app.main import make_application, make_window
 from floorcast_app.main_window import MENU_GROUPS, SUBMENUS, MainWindow
 from floorcast_app.toolbar import SPELT, MainToolbar
 from floorplan_core.plugins import default_registry
+from tests.app.windows import open_window
 
 WORDS = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
 
 
 @pytest.fixture
 def window(qtbot: QtBot) -> Iterator[MainWindow]:
-    make_application()
-    made = make_window(unattended=True)
-    made.resize(1440, 900)
-    made.show()
-    yield made
-    made.close()
+    with open_window() as made:
+        yield made
 
 
 def _toolbar(window: MainWindow) -> MainToolbar:

@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from floorcast_app.dock_layout import tab_bars
-from floorcast_app.main import make_application, make_window
 from floorcast_app.main_window import MainWindow
+from tests.app.windows import open_window
 
 
 def _seen_tabs(window: MainWindow) -> list[list[str]]:
@@ -17,34 +17,24 @@ def _seen_tabs(window: MainWindow) -> list[list[str]]:
 
 
 def test_every_workspace_comes_back_as_it_was(qtbot: QtBot) -> None:
-    make_application()
-    window = make_window(unattended=True)
-    qtbot.addWidget(window)
-    window.resize(1440, 900)
-    window.show()
-    first = {}
-    for name in ("inspect", "plan", "run"):
-        window.workbench.run(f"view.{name}")
-        qtbot.waitUntil(lambda: _seen_tabs(window) != [])
-        qtbot.wait(100)  # until Qt has laid out the docks
-        first[name] = _seen_tabs(window)
-    for name in ("inspect", "plan", "run", "inspect", "run", "plan"):
-        window.workbench.run(f"view.{name}")
-        qtbot.waitUntil(lambda n=name: _seen_tabs(window) == first[n])  # type: ignore[misc]
-    window.close()
+    with open_window() as window:
+        first = {}
+        for name in ("inspect", "plan", "run"):
+            window.workbench.run(f"view.{name}")
+            qtbot.waitUntil(lambda: _seen_tabs(window) != [])
+            qtbot.wait(100)  # until Qt has laid out the docks
+            first[name] = _seen_tabs(window)
+        for name in ("inspect", "plan", "run", "inspect", "run", "plan"):
+            window.workbench.run(f"view.{name}")
+            qtbot.waitUntil(lambda n=name: _seen_tabs(window) == first[n])  # type: ignore[misc]
 
 
 def test_the_tables_do_not_take_what_a_larger_window_gives(qtbot: QtBot) -> None:
-    make_application()
-    window = make_window(unattended=True)
-    qtbot.addWidget(window)
-    window.resize(1280, 720)
-    window.show()
-    qtbot.wait(200)
-    window.workbench.run("view.run")
-    qtbot.wait(100)
-    window.resize(1920, 1200)
-    qtbot.wait(200)
-    window.workbench.run("view.inspect")
-    qtbot.waitUntil(lambda: window.docks["region_list"].height() < 0.3 * window.height())
-    window.close()
+    with open_window(1280, 720) as window:
+        qtbot.wait(200)
+        window.workbench.run("view.run")
+        qtbot.wait(100)
+        window.resize(1920, 1200)
+        qtbot.wait(200)
+        window.workbench.run("view.inspect")
+        qtbot.waitUntil(lambda: window.docks["region_list"].height() < 0.3 * window.height())
