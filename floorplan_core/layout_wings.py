@@ -11,7 +11,6 @@ import shapely
 
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.raster import polygon_mask
 from floorplan_core.layout import Layout, lay_out
 from floorplan_core.model import LayoutPlane, OccupancyGrid, Region, Wing
 from floorplan_core.model.corrections import RejectDoor
@@ -20,6 +19,7 @@ from floorplan_core.model.layout import turned
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, Said, said_of_part
 from floorplan_core.stages.corrections_regions import opened
+from floorplan_core.stages.regions import count_cells
 from floorplan_core.stages.wing_joins import (
     PartLayout,
     join_doors,
@@ -96,8 +96,7 @@ def _opened(planes: tuple[LayoutPlane, ...], merged: tuple[Any, ...], turn: floa
 
 def _counted(region: Region, grid: OccupancyGrid) -> Region:
     """The region with the cells that it has in the grid of the plan."""
-    inside = polygon_mask(region.polygon, grid.origin, grid.cell, grid.states.shape)
-    free, total = int(np.count_nonzero(grid.universe & inside)), int(np.count_nonzero(inside))
+    free, total = count_cells(region.polygon, grid)
     return replace(region, free_cells=free, total_cells=total)
 
 

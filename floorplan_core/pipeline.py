@@ -91,6 +91,7 @@ class FloorPlanner:
         self.names: RegionNames = NamesOfRun()  # what the regions were called in the plans before
         # After so many points, with these settings:
         self._found: tuple[tuple[object, ...], ManhattanFrame, tuple[Storey, ...]] | None = None
+        self._apart: tuple[tuple[object, ...], tuple[Island, ...]] | None = None  # the same for one storey
         self._ahead = 0.0  # seconds in which the frame was found before a plan was asked for
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
@@ -236,7 +237,10 @@ class FloorPlanner:
         own = self._own(frame)
         if not is_wide(self.map.sample(), own):
             return ()
-        return find_islands(self._surfels_of(storey, own)[0], own)
+        made_of = (self.map.surfels.points, storey, self.config.storeys, own.floor_z, own.rotation.tobytes())
+        if self._apart is None or self._apart[0] != made_of:
+            self._apart = made_of, find_islands(self._surfels_of(storey, own)[0], own)
+        return self._apart[1]
 
     def _evidence_of(self, storey: int, frame: ManhattanFrame, island: Island | None = None) -> Evidence:
         """The voxel map of one storey; of one building of it."""

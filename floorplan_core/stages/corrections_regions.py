@@ -26,14 +26,7 @@ from floorplan_core.model.corrections import (
     SplitRegion,
 )
 from floorplan_core.model.layout import turned
-from floorplan_core.stages.corrections import (
-    NOTHING,
-    REACH,
-    Remarks,
-    line_of,
-    place,
-    without,
-)
+from floorplan_core.stages.corrections import NOTHING, REACH, Remarks, line_of, place, without
 from floorplan_core.stages.region_names import ID_PREFIX, next_number
 from floorplan_core.stages.region_sides import WallSurfaces
 from floorplan_core.stages.regions import make_region

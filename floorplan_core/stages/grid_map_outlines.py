@@ -14,10 +14,10 @@ import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.masks import opened
-from floorplan_core.geometry.raster import cells_to_polygon, polygon_window
+from floorplan_core.geometry.raster import cells_to_polygon
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import OCCUPIED, OccupancyGrid, Region, RegionSide
-from floorplan_core.stages.regions import region_of
+from floorplan_core.stages.regions import count_cells, region_of
 
 Bool = NDArray[np.bool_]
 Float = NDArray[np.float64]
@@ -75,8 +75,7 @@ def _straighten(ring: Any) -> Float:
 def outline_region(polygon: Any, grid: OccupancyGrid, rows: NDArray[np.int64]) -> Region:
     """A region inside ``polygon``, without name, label and turning distance."""
     polygon = shapely.orient_polygons(polygon)
-    window, inside = polygon_window(polygon, grid.origin, grid.cell, grid.states.shape)
-    free, total = int((grid.universe[window] & inside).sum()), int(inside.sum())
+    free, total = count_cells(polygon, grid)
     sides = tuple(
         _side(a, b, grid, hole)
         for ring, hole in ((polygon.exterior, False), *((r, True) for r in polygon.interiors))

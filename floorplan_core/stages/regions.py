@@ -75,7 +75,8 @@ def build_regions(
         for part in polygons_of(cut_walls(shape, standing))
     ]
     regions = [
-        region_of(polygon, rows, grower.sides.of(polygon), *_cells(polygon, grid)) for polygon, rows in whole
+        region_of(polygon, rows, grower.sides.of(polygon), *count_cells(polygon, grid))
+        for polygon, rows in whole
     ]
     kept = [r for r in regions if _acceptable(r, config)]
     kept.sort(key=_reading_order)
@@ -93,7 +94,7 @@ def _disjoint(
     """Cut the overlaps: what two regions share belongs to the one that saw more of its own area."""
 
     def rank(piece: tuple[Any, NDArray[np.int64]]) -> tuple[float, float, tuple[float, ...]]:
-        free, total = _cells(piece[0], grid)
+        free, total = count_cells(piece[0], grid)
         return -round(free / total, 6) if total else 0.0, -piece[0].area, piece[0].bounds
 
     ordered = sorted(pieces, key=rank)
@@ -112,7 +113,7 @@ def _disjoint(
     return out
 
 
-def _cells(polygon: Any, grid: OccupancyGrid) -> tuple[int, int]:
+def count_cells(polygon: Any, grid: OccupancyGrid) -> tuple[int, int]:
     """Cells of the universe, and all cells, inside a polygon."""
     window, inside = polygon_window(polygon, grid.origin, grid.cell, grid.states.shape)
     return int(np.count_nonzero(grid.universe[window] & inside)), int(np.count_nonzero(inside))
@@ -124,7 +125,7 @@ def make_region(
     """The region of a polygon and of ``rows`` of the cover, with sides and cells; no id, name or label."""
     polygon = shapely.orient_polygons(polygon)
     sides = sides_of(polygon, walls, doors)
-    free, total = _cells(polygon, grid)
+    free, total = count_cells(polygon, grid)
     return region_of(polygon, rows, sides, free, total)
 
 

@@ -20,7 +20,7 @@ from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import FREE, Door, LayoutPlane, OccupancyGrid, Region, RegionSide
 from floorplan_core.model.corrections import Point
 from floorplan_core.model.layout import turned
-from floorplan_core.stages.regions import region_of
+from floorplan_core.stages.regions import count_cells, region_of
 
 Float = NDArray[np.float64]
 
@@ -206,21 +206,20 @@ def _is_floor(piece: Any, part: PartLayout) -> bool:
     """True where the part saw enough free floor in a piece of the plan."""
     if piece.area < _CRUMB:
         return False
-    window, inside = _window(piece.buffer(part.grid.cell), part)
-    free = int(np.count_nonzero(inside & (part.grid.states[window] == FREE)))
+    grid, around = part.grid, _turned_into(part, piece.buffer(part.grid.cell))
+    window, inside = polygon_window(around, grid.origin, grid.cell, grid.states.shape)
+    free = int(np.count_nonzero(inside & (grid.states[window] == FREE)))
     return free > _LEAST_FLOOR * int(np.count_nonzero(inside))
 
 
 def _cells(polygon: Any, part: PartLayout) -> tuple[int, int]:
     """Cells of the part's universe, and all cells, inside a polygon in the axes of the plan."""
-    window, inside = _window(polygon, part)
-    return int(np.count_nonzero(part.grid.universe[window] & inside)), int(np.count_nonzero(inside))
+    return count_cells(_turned_into(part, polygon), part.grid)
 
 
-def _window(polygon: Any, part: PartLayout) -> Any:
-    """The part's cells around a polygon in the axes of the plan, and which of them lie inside."""
-    own = shapely.transform(polygon, lambda xy: turned(xy, -part.turn))
-    return polygon_window(own, part.grid.origin, part.grid.cell, part.grid.states.shape)
+def _turned_into(part: PartLayout, polygon: Any) -> Any:
+    """A polygon in the axes of the plan, in those of the part."""
+    return shapely.transform(polygon, lambda xy: turned(xy, -part.turn))
 
 
 def sides_between(polygon: Any, before: Sequence[RegionSide], walls: Any) -> tuple[RegionSide, ...]:

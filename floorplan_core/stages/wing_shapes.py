@@ -11,15 +11,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import shapely
 
-from floorplan_core.geometry.raster import polygon_mask
 from floorplan_core.model import OccupancyGrid, Region
 from floorplan_core.model.corrections import Correction, MergeRegions, SplitRegion
 from floorplan_core.stages.corrections import NOTHING, Remarks, part_of
 from floorplan_core.stages.corrections_regions import merge, split
-from floorplan_core.stages.regions import region_of
+from floorplan_core.stages.regions import count_cells, region_of
 from floorplan_core.stages.wing_joins import sides_between
 
 _SHARED = 1e-4  # m2 that a polygon has in common with a region whose sides it takes over
@@ -69,7 +67,5 @@ def _closed(shape: Any, width: float) -> Any:
 def _remade(polygon: Any, region: Region, before: Regions, walls: Any, grid: OccupancyGrid) -> Region:
     polygon = shapely.orient_polygons(polygon)
     sides = [s for r in before if r.polygon.intersection(polygon).area > _SHARED for s in r.sides]
-    inside = polygon_mask(polygon, grid.origin, grid.cell, grid.states.shape)
-    free, total = int(np.count_nonzero(grid.universe & inside)), int(np.count_nonzero(inside))
-    made = region_of(polygon, None, sides_between(polygon, sides, walls), free, total)
+    made = region_of(polygon, None, sides_between(polygon, sides, walls), *count_cells(polygon, grid))
     return replace(made, id=region.id, name=region.name, height=region.height, by_hand=region.by_hand)
