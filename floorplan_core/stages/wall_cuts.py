@@ -62,14 +62,15 @@ def standing_walls(planes: Sequence[LayoutPlane], min_support: float) -> Float:
 
 
 def _standing(plane: LayoutPlane) -> list[tuple[float, float]]:
-    """Where the plane itself was seen, low and well."""
+    """Where the plane itself was seen, low and well.
+
+    Also where its wall went to a parallel plane close by: what was seen stands there all the same. Of a plane
+    that a person switched off or cut, only what they left.
+    """
     profile = plane.profile
     assert profile is not None
     mask = np.concatenate([[False], profile.low >= _STANDS, [False]]).astype(np.int8)
-    runs = profile.start + profile.step * np.flatnonzero(np.diff(mask)).reshape(-1, 2)
-    return [
-        (max(float(s), float(a)), min(float(e), float(b)))
-        for s, e in runs
-        for a, b in plane.walls
-        if min(e, b) - max(s, a) > _SHORTEST
-    ]
+    runs = (profile.start + profile.step * np.flatnonzero(np.diff(mask)).reshape(-1, 2)).tolist()
+    if plane.by_hand:
+        runs = [(max(s, a), min(e, b)) for s, e in runs for a, b in plane.walls.tolist()]
+    return [(s, e) for s, e in runs if e - s > _SHORTEST]
