@@ -120,8 +120,14 @@ def _settings(unattended: bool):  # type: ignore[no-untyped-def]
     import tempfile
 
     folder = tempfile.mkdtemp(prefix="floorcast-")
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return QSettings(str(Path(folder) / "settings.ini"), QSettings.Format.IniFormat)
+    settings = QSettings(str(Path(folder) / "settings.ini"), QSettings.Format.IniFormat)
+
+    def forget() -> None:
+        settings.sync()  # else it is written, and its folder made again, when Qt itself ends
+        shutil.rmtree(folder, ignore_errors=True)
+
+    atexit.register(forget)
+    return settings
 
 
 def _has_display() -> bool:

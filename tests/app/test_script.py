@@ -16,8 +16,9 @@ from tests.app.pump import SAMPLE
 from tests.app.windows import open_window
 
 
-def gui(script: Path) -> subprocess.CompletedProcess[str]:
+def gui(script: Path, **more: str) -> subprocess.CompletedProcess[str]:
     env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+    env |= more
     return subprocess.run(
         [sys.executable, "-m", "floorplan_core.cli.main", "gui", "--script", str(script)],
         env=env,
@@ -49,6 +50,15 @@ assert "Foyer" in [region.name for region in app.workbench.plan.regions]
     ]
     assert "Foyer" in names
     assert (tmp_path / "plan.png").stat().st_size > 5000
+
+
+def test_nothing_is_left_among_the_temporary_files(tmp_path: Path) -> None:
+    session, scratch = tmp_path / "session.py", tmp_path / "scratch"
+    session.write_text(f"app.run('file.open', path={str(SAMPLE)!r})")
+    scratch.mkdir()
+    done = gui(session, TMPDIR=str(scratch))
+    assert done.returncode == 0, done.stderr
+    assert list(scratch.iterdir()) == []
 
 
 def test_helper_processes_do_not_run_the_script_again(tmp_path: Path) -> None:
