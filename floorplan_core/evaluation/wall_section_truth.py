@@ -2,7 +2,8 @@
 
 Rooms are given as outlines on a 4 cm raster; where the upper section closes around a room its exact face
 replaces the outline, elsewhere the outline's sides are moved onto the section lines. A doorway is where the
-upper section has both faces of a wall and the lower one has neither.
+upper section has both faces of a wall and the lower one has neither; it is as wide as the clear opening,
+between the frames that the lower section shows in it, since that is what a laser meter measures there.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import numpy as np
 
 from floorplan_core.evaluation.truth import Float, Truth, TruthDoor, TruthRoom, room_dimensions
 
-GRID = 0.001  # m, end points of sections are equal to this
+GRID = 0.001  # m, end points of sections that lie this near to each other are one
 RASTER = 0.06  # m, an outline on a 4 cm raster is this far from its wall at most
 SAME_FACE = 0.95  # intersection over union of a room's outline and its exact face
 WALL_THICKNESS = (0.04, 0.5)  # m, between the two faces of one wall
 DOORWAY = (0.55, 2.4)  # m; wider gaps below a lintel are windows or passages
+FRAME = 0.1  # m, from an end of the wall to the frame's inner face at most
 CORRIDOR_DOORS = 5  # a space onto which so many doorways open is circulation; the source has no labels
 AXIS_TOLERANCE = 0.005  # m, a section line is parallel to an axis when its ends differ by less
 SAME_LINE = 0.012  # m, lines of the two sections this near to each other are one face
@@ -44,7 +46,21 @@ def _segments(values: Any) -> Float:
     lines = np.array(values, dtype=np.float64).reshape(-1, 2, 2)
     if not len(lines) or not np.all(np.isfinite(lines)):
         raise ValueError("a wall section is empty or not finite")
-    return lines
+    return _met(lines)
+
+
+def _met(lines: Float) -> Float:
+    """The lines with end points that are nearly equal made equal, so that outlines close."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    points = lines.reshape(-1, 2)
+    pairs = cKDTree(points).query_pairs(GRID, output_type="ndarray")
+    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
+    _, place = connected_components(links, directed=False)
+    means = [np.bincount(place, points[:, axis]) / np.bincount(place) for axis in (0, 1)]
+    return np.stack(means, axis=1)[place].reshape(-1, 2, 2)
 
 
 def _outline(room: dict[str, Any]) -> Any:
@@ -129,8 +145,22 @@ def doorways(high: Float, low: Float, axis: int) -> list[TruthDoor]:
             continue
         used.update((i, partner))
         b, other_start, other_end = gaps[partner]
-        found.append(_doorway(axis, (a, b), (max(start, other_start), min(end, other_end))))
+        span = max(start, other_start), min(end, other_end)
+        found.append(_doorway(axis, (a, b), _clear(low, axis, (a, b), span)))
     return [d for d in found if DOORWAY[0] <= d.width]
+
+
+def _clear(
+    low: Float, axis: int, faces: tuple[float, float], span: tuple[float, float]
+) -> tuple[float, float]:
+    """``span`` less the frames at its ends: lines of the lower section across the wall, between its faces."""
+    across = np.abs(low[:, 0, 1 - axis] - low[:, 1, 1 - axis]) < AXIS_TOLERANCE
+    start, end = low[:, :, axis].min(axis=1), low[:, :, axis].max(axis=1)
+    at = low[across & (start < faces[1]) & (end > faces[0]), :, 1 - axis].mean(axis=1)
+    return (
+        max([span[0], *at[(at > span[0]) & (at < span[0] + FRAME)].tolist()]),
+        min([span[1], *at[(at < span[1]) & (at > span[1] - FRAME)].tolist()]),
+    )
 
 
 def _doorway(axis: int, faces: tuple[float, float], span: tuple[float, float]) -> TruthDoor:

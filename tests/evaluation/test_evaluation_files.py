@@ -121,6 +121,26 @@ def test_wall_sections_become_rooms_and_a_doorway():
     assert doorways(high, high, 0) == []
 
 
+def test_a_doorway_is_as_wide_as_the_opening_between_its_frames():
+    faces = np.array([[[x, 0], [x, 3]] for x in (4, 4.2)], dtype=float)
+    walls = [[[x, a], [x, b]] for x in (4, 4.2) for a, b in ((0, 1), (1.9, 3))]
+    frames = [[[4.05, y], [4.15, y]] for y in (1.035, 1.865)]
+    beyond = [[[5, 1.05], [6, 1.05]], [[4.0, 1.4], [4.2, 1.4]]]  # another room's wall, a shut leaf half-way
+    (door,) = doorways(faces, np.array(walls + frames + beyond, dtype=float), 0)
+    assert door.bounds == pytest.approx((4, 1.035, 4.2, 1.865))
+
+
+def test_ends_of_a_section_that_nearly_meet_close_a_room():
+    """0.2 mm apart, on both sides of where millimetres are rounded."""
+    top = [[[10, 8], [4.0006, 8]], [[4.0004, 8], [0, 8]]]
+    ring = [[[0, 0], [10, 0]], [[10, 0], [10, 8]], *top, [[0, 8], [0, 0]]]
+    outline = [[0.08, 0.08], [9.92, 0.08], [9.92, 7.92], [0.08, 7.92]]
+    rooms = [{"id": 1, "polygon": outline}]
+    document = {"wall_segments_high": ring, "wall_segments_low": ring, "rooms": rooms}
+    (room,) = parse_truth(document, "gt_plan.json").rooms
+    assert room.polygon.bounds == pytest.approx((0, 0, 10, 8), abs=0.001)
+
+
 def test_hospital_truth():
     result = survey("sim_aws_hospital")
     assert len(result.rooms) == 27
