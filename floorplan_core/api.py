@@ -1,6 +1,7 @@
 """What plugins may import: the stable, public names of the core."""
 
 from floorplan_core.config import Config, InputConfig
+from floorplan_core.drawing_style import DrawingStyle
 from floorplan_core.errors import FloorPlanError, InputError, NoPlanError, OutputError, UsageError
 from floorplan_core.model import (
     FREE,
@@ -51,6 +52,7 @@ __all__ = [
     "UNOBSERVED",
     "Config",
     "Door",
+    "DrawingStyle",
     "EmptyInput",
     "Exporter",
     "Facing",

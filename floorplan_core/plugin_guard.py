@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from floorplan_core.drawing_style import DrawingStyle, Styled, in_style
 from floorplan_core.errors import FloorPlanError, InputError, OutputError
 from floorplan_core.plugins import Exporter, PluginStatus, Reader, ReadOptions, RegionClassifier
 
@@ -88,6 +89,16 @@ class GuardedExporter:
     def __init__(self, inner: Exporter, status: PluginStatus) -> None:
         self._inner, self._status = inner, status
         self.name, self.suffixes, self.description = inner.name, tuple(inner.suffixes), inner.description
+
+    @property
+    def has_style(self) -> bool:
+        """True where units and language make a difference to what is written."""
+        return isinstance(self._inner, Styled)
+
+    def styled(self, style: DrawingStyle) -> GuardedExporter:
+        """The same exporter in a style; one that has none as it is."""
+        with _failures(self._status, "choosing units and language", PluginFailed):
+            return GuardedExporter(in_style(self._inner, style), self._status)
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the plan; a file that was promised and not written is a failure too."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from floorplan_core.cli.console import Console
-from floorplan_core.cli.options import DebugFlag, JsonFlag, QuietFlag
+from floorplan_core.cli.options import DebugFlag, DrawingLanguage, DrawingUnits, JsonFlag, QuietFlag
 
 if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan
@@ -27,16 +27,20 @@ def export(
     format_: Annotated[
         str | None, typer.Option("--format", metavar="NAME", help="Exporter to use instead of the suffix's.")
     ] = None,
+    units: DrawingUnits = "metric",
+    language: DrawingLanguage = "en",
     as_json: JsonFlag = False,
     quiet: QuietFlag = False,
     debug: DebugFlag = False,
 ) -> None:
     """Write a saved plan to files; the format follows from the suffix, or from --format."""
+    from floorplan_core.drawing_style import DrawingStyle, in_style
     from floorplan_core.files import output_file
     from floorplan_core.plugins import default_registry
 
     console = Console(context, as_json=as_json, quiet=quiet)
-    exporters = [(path, default_registry().exporter(path, format_)) for path in to]
+    style = DrawingStyle(units, language)
+    exporters = [(path, in_style(default_registry().exporter(path, format_), style)) for path in to]
     saved = load_plan(plan)
     for path, exporter in exporters:
         with output_file(path) as temporary:

@@ -47,6 +47,15 @@ Resolution = Annotated[
     float | None,
     typer.Option("--resolution", metavar="METRES", help="Metres a pixel, where INPUT is a picture of a map."),
 ]
+DrawingUnits = Annotated[
+    str,
+    typer.Option(
+        "--units", metavar="metric|imperial", help="Of drawings and pictures; GeoJSON stays in metres."
+    ),
+]
+DrawingLanguage = Annotated[
+    str, typer.Option("--language", metavar="en|de", help="Of the words in drawings and pictures.")
+]
 OutFolder = Annotated[
     Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the results.", show_default=False)
 ]

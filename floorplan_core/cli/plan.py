@@ -18,6 +18,8 @@ from floorplan_core.cli.options import (
     Assignments,
     ConfigFile,
     DebugFlag,
+    DrawingLanguage,
+    DrawingUnits,
     JsonFlag,
     OutFolder,
     QuietFlag,
@@ -40,6 +42,7 @@ from floorplan_core.cli.planning import make_any_plans, replan, stages_of
 from floorplan_core.kernel_times import kernel_seconds
 
 if TYPE_CHECKING:
+    from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.model import FloorPlan
 
 
@@ -61,6 +64,8 @@ def plan(
         str | None,
         typer.Option("--from", metavar="STAGE", help="INPUT is a DIR with stages: begin again at this one."),
     ] = None,
+    units: DrawingUnits = "metric",
+    language: DrawingLanguage = "en",
     config: ConfigFile = None,
     set_: Assignments = None,
     as_json: JsonFlag = False,
@@ -68,19 +73,20 @@ def plan(
     debug: DebugFlag = False,
 ) -> None:
     """Make a floor plan of a survey: plan.geojson, plan.svg, report.json and pictures."""
+    from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.files import output_folder
 
     started = perf_counter()
     console = Console(context, as_json=as_json, quiet=quiet)
     stages = stages_of(_only(survey)) if from_stage else None
-    settings = resolve_config(config, set_, stages)
+    settings, style = resolve_config(config, set_, stages), DrawingStyle(units, language)
     names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
         if from_stage and stages:
             plans = iter([replan(stages, from_stage, settings, observer)])
         else:
             plans = make_any_plans(survey, trajectory, resolution, storey, settings, observer)
-        writer = Writer(staging, names, save_stages, observer, started)
+        writer = Writer(staging, names, save_stages, observer, started, style)
         for made, clock in plans:
             writer.write(made, clock)
         writer.lift_first()
@@ -103,17 +109,23 @@ class Writer:
     """Writes plan after plan, each into the folder of its storey."""
 
     def __init__(
-        self, staging: Path, names: tuple[str, ...], stages: bool, observer: CommandObserver, started: float
+        self,
+        staging: Path,
+        names: tuple[str, ...],
+        stages: bool,
+        observer: CommandObserver,
+        started: float,
+        style: DrawingStyle,
     ) -> None:
         self.done: list[Written] = []
         self._staging, self._names, self._stages = staging, names, stages
-        self._observer, self._started = observer, started
+        self._observer, self._started, self._style = observer, started, style
 
     def write(self, plan: FloorPlan, clock: dict[str, float]) -> None:
         """Write one plan with its report."""
         folder = self._folder(plan)
         folder.mkdir()
-        times = {**clock, "export": write_plan(plan, folder, self._names, self._observer)}
+        times = {**clock, "export": write_plan(plan, folder, self._names, self._observer, self._style)}
         if self._stages:
             save_run(plan, self._observer, folder)
         self._observer.results.clear()  # what the next storey makes is its own

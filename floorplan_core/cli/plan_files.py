@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from floorplan_core.cli.console import CommandObserver
 
 if TYPE_CHECKING:
+    from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.model import FloorPlan
 
 PLAN_FILE = "plan.floorplan"
@@ -19,7 +20,9 @@ LABEL_IMAGE = "labels.png"
 STOREY_FOLDER = "storey-{}"
 
 
-def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: CommandObserver) -> float:
+def write_plan(
+    plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: CommandObserver, style: DrawingStyle
+) -> float:
     """Write ``plan`` losslessly and with the exporter for each of ``names``; returns the seconds it took."""
     from floorplan_core import intermediates
     from floorplan_core.files import writing
@@ -31,21 +34,22 @@ def write_plan(plan: FloorPlan, folder: Path, names: tuple[str, ...], observer: 
     for done, name in enumerate(names, start=1):
         observer.check_cancelled()
         observer.progress("export", done)
-        _export(plan, folder / name, observer)
+        _export(plan, folder / name, observer, style)
     seconds = perf_counter() - started
     observer.stage_finished("export", seconds)
     return seconds
 
 
-def _export(plan: FloorPlan, path: Path, observer: CommandObserver) -> None:
+def _export(plan: FloorPlan, path: Path, observer: CommandObserver, style: DrawingStyle) -> None:
     """Write one file; a picture whose plugin fails is left out with a warning, the drawings are a must."""
+    from floorplan_core.drawing_style import in_style
     from floorplan_core.files import writing
     from floorplan_core.plugin_guard import PluginFailed
     from floorplan_core.plugins import default_registry
 
     try:
         with writing(path.parent.parent / path.name):
-            default_registry().exporter(Path(path.name)).write(plan, path)
+            in_style(default_registry().exporter(Path(path.name)), style).write(plan, path)
     except PluginFailed as error:
         if path.name in DRAWINGS:
             raise

@@ -15,6 +15,8 @@ from floorplan_core.cli.options import (
     Assignments,
     ConfigFile,
     DebugFlag,
+    DrawingLanguage,
+    DrawingUnits,
     JsonFlag,
     OutFolder,
     QuietFlag,
@@ -26,6 +28,7 @@ from floorplan_core.cli.options import (
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config
+    from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.drift.online import CorrectingPlanner
     from floorplan_core.model import FloorPlan, Reconstruction
     from floorplan_core.pipeline import FloorPlanner
@@ -56,6 +59,8 @@ def watch(
     ] = None,
     trajectory: TrajectoryFile = None,
     storey: StoreyNumber = None,
+    units: DrawingUnits = "metric",
+    language: DrawingLanguage = "en",
     config: ConfigFile = None,
     set_: Assignments = None,
     as_json: JsonFlag = False,
@@ -64,16 +69,17 @@ def watch(
 ) -> None:
     """Replay or follow a run and write a numbered plan each interval, timeline.json and a film strip."""
     from floorplan_core.cli.planning import announce_compilation
+    from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.errors import NoPlanError
     from floorplan_core.files import output_folder
 
     console = Console(context, as_json=as_json, quiet=quiet)
-    settings = resolve_config(config, set_)
+    settings, style = resolve_config(config, set_), DrawingStyle(units, language)
     observer = console.observer(bars=False)  # a line for each interval instead
     with output_folder(out):  # made now, and removed again if nothing comes of it
         run, intervals = open_run(survey, trajectory, every, follow, settings, observer)
         announce_compilation(observer)
-        recorder = Recorder(out, observer, storey or 0)
+        recorder = Recorder(out, observer, storey or 0, style)
         recorder.record(intervals, _planner(run, settings, observer))
         if not recorder.film.frames():
             raise NoPlanError(_never(recorder.timeline, run))
@@ -125,13 +131,15 @@ def open_run(
 class Recorder:
     """Writes what a run gives, interval by interval; its files and the timeline so far appear together."""
 
-    def __init__(self, out: Path, observer: CommandObserver, storey: int) -> None:
+    def __init__(self, out: Path, observer: CommandObserver, storey: int, style: DrawingStyle) -> None:
+        from floorplan_core.drawing_style import in_style
         from floorplan_core.plugins import default_registry
 
         self.timeline: list[dict[str, Any]] = []
-        self.film = Film()
+        self.film = Film(style)
         self._out, self._observer, self._storey = out, observer, storey
-        self._exporters = {s: default_registry().exporter(Path(f"plan{s}")) for s in SUFFIXES}
+        exporters = ((s, default_registry().exporter(Path(f"plan{s}"))) for s in SUFFIXES)
+        self._exporters = {s: in_style(exporter, style) for s, exporter in exporters}
 
     def record(self, intervals: Iterator[Interval], planner: OnlinePlanner) -> None:
         """Integrate and plan until the run is over."""
@@ -240,7 +248,8 @@ def _never(timeline: list[dict[str, Any]], run: Reconstruction) -> str:
 class Film:
     """The frames of the film strip: at most ``limit``, evenly spread over the run, always with the last."""
 
-    def __init__(self, limit: int = MAX_FRAMES) -> None:
+    def __init__(self, style: DrawingStyle, limit: int = MAX_FRAMES) -> None:
+        self._style = style
         self._limit, self._stride, self._count = limit, 1, 0
         self._kept: list[tuple[FloorPlan, str]] = []
         self._last: tuple[FloorPlan, str] | None = None
@@ -268,4 +277,4 @@ class Film:
         frames = self.frames()
         strip: Callable[..., None] = filmstrip_png
         with output_file(path) as temporary:
-            strip([plan for plan, _ in frames], [title for _, title in frames], temporary)
+            strip([plan for plan, _ in frames], [title for _, title in frames], temporary, self._style)

@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.errors import UsageError
 from floorplan_core.exporters.png import INK, WHITE, occupancy_image, plan_image
-from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, fit_view, font, plan_bounds, save
+from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, face, fit_view, plan_bounds, save
 from floorplan_core.model import FloorPlan
 
 MUTED = (84, 96, 108)
@@ -27,19 +28,25 @@ COLUMNS = 4  # columns before a new row begins
 TURNED = np.deg2rad(2.0)  # frames that differ more do not share coordinates
 
 
-def filmstrip_png(plans: Sequence[FloorPlan], titles: Sequence[str], path: Path) -> None:
+def filmstrip_png(
+    plans: Sequence[FloorPlan], titles: Sequence[str], path: Path, style: DrawingStyle = PLAIN
+) -> None:
     """Write the film strip of ``plans``, each under its title; :class:`UsageError` where there are none."""
-    save(filmstrip_image(plans, titles), path)
+    save(filmstrip_image(plans, titles, style), path)
 
 
-def filmstrip_image(plans: Sequence[FloorPlan], titles: Sequence[str]) -> Image.Image:
+def filmstrip_image(
+    plans: Sequence[FloorPlan], titles: Sequence[str], style: DrawingStyle = PLAIN
+) -> Image.Image:
     """The picture; as many titles as plans."""
     if not plans or len(plans) != len(titles):
         raise UsageError(
             f"A film strip needs plans with titles; got {len(plans)} plans, {len(titles)} titles."
         )
     views = _views(plans)
-    columns = [_column(plan, title, view) for plan, title, view in zip(plans, titles, views, strict=True)]
+    columns = [
+        _column(plan, title, view, style) for plan, title, view in zip(plans, titles, views, strict=True)
+    ]
     width, height = (max(c.size[i] for c in columns) + GAP for i in (0, 1))
     across = min(COLUMNS, len(columns))
     down = -(-len(columns) // across)
@@ -77,19 +84,20 @@ def _centred(bounds: Bounds, like: View) -> View:
     return View(left, low, like.scale, like.width, like.height)
 
 
-def _column(plan: FloorPlan, title: str, view: View) -> Image.Image:
+def _column(plan: FloorPlan, title: str, view: View, style: DrawingStyle) -> Image.Image:
     """Title, occupancy, plan."""
     area = (0, 0, view.width, view.height)
-    upper = occupancy_image(plan, view).crop(area)
-    lower = plan_image(plan, view).crop(area)
+    upper = occupancy_image(plan, view, style).crop(area)
+    lower = plan_image(plan, view, style).crop(area)
     column = Image.new("RGB", (view.width, TITLE + 2 * view.height + GAP), WHITE)
     column.paste(upper, (0, TITLE))
     column.paste(lower, (0, TITLE + view.height + GAP))
     draw = ImageDraw.Draw(column)
-    draw.text((0, 4), title, fill=INK, font=font(HEADING), anchor="lt")
+    draw.text((0, 4), title, fill=INK, font=face(title, HEADING), anchor="lt")
     free, total = (sum(getattr(r, k) for r in plan.regions) for k in ("free_cells", "total_cells"))
-    seen = f", {100 * free / total:.0f} % seen" if total else ""
-    facts = f"{len(plan.regions)} regions, {sum(r.area for r in plan.regions):.1f} m²{seen}"
+    seen = f", {style.say('{} % seen', f'{100 * free / total:.0f}')}" if total else ""
+    total_area = style.area(sum(r.area for r in plan.regions), 1)
+    facts = f"{style.count(len(plan.regions), 'region')}, {total_area}{seen}"
     draw_text(draw, (0, TITLE - 26), facts, FACTS, MUTED)
     draw.rectangle([0, TITLE + view.height + GAP, view.width - 1, column.height - 1], outline=FRAME)
     return column

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters.palette import rgb
 from floorplan_core.exporters.placement import Line, Placed, block_size, place
 from floorplan_core.exporters.png_canvas import (
@@ -58,7 +59,18 @@ DOOR_DEPTH = 0.25  # metres: drawn at least so deep
 NAME, AREA, PAD = 30, 17, 5  # pixels
 
 
-class PlanesPngExporter:
+class _Figure:
+    """What the three exporters share."""
+
+    def __init__(self, style: DrawingStyle = PLAIN) -> None:
+        self.style = style
+
+    def styled(self, style: DrawingStyle) -> Self:
+        """The exporter of figures in these units, in this language."""
+        return type(self)(style)
+
+
+class PlanesPngExporter(_Figure):
     """Writes figure (a), ``planes.png``."""
 
     name = "Planes PNG"
@@ -69,10 +81,10 @@ class PlanesPngExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the picture of ``plan`` to ``path``."""
-        save(planes_image(plan), path)
+        save(planes_image(plan, style=self.style), path)
 
 
-class OccupancyPngExporter:
+class OccupancyPngExporter(_Figure):
     """Writes figure (b), ``occupancy.png``."""
 
     name = "Occupancy PNG"
@@ -81,10 +93,10 @@ class OccupancyPngExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the picture of ``plan`` to ``path``."""
-        save(occupancy_image(plan), path)
+        save(occupancy_image(plan, style=self.style), path)
 
 
-class PlanPngExporter:
+class PlanPngExporter(_Figure):
     """Writes figure (c), ``plan.png``."""
 
     name = "PNG"
@@ -93,10 +105,10 @@ class PlanPngExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the picture of ``plan`` to ``path``."""
-        save(plan_image(plan), path)
+        save(plan_image(plan, style=self.style), path)
 
 
-def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
+def planes_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (a)."""
     view = view or fit_view(plan_bounds(plan))
     codes, colours = paper(view), (WHITE, RED_LINE, GREEN_LINE, DIM, RED, GREEN)
@@ -109,12 +121,12 @@ def planes_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
         _dots(codes, view, points.xy[kind == code], code)
     image, draw = finish(codes, colours, view)
     count = [sum(p.facing.axis == axis for p in shown) for axis in (0, 1)]
-    entries = [(f"x planes ({count[0]})", RED), (f"y planes ({count[1]})", GREEN), ("other points", DIM)]
-    _draw_strip(draw, view, entries, INK)
+    x, y = style.say("x planes ({})", count[0]), style.say("y planes ({})", count[1])
+    _draw_strip(draw, view, [(x, RED), (y, GREEN), (style.say("other points"), DIM)], INK, style)
     return image
 
 
-def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
+def occupancy_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (b)."""
     view = view or fit_view(plan_bounds(plan))
     grid = plan.grid
@@ -126,16 +138,16 @@ def occupancy_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
     for region in plan.regions:
         draw_rings(draw, view, region.polygon, OUTLINE, WALL_LINE - 1)
     entries = [("free, known", FREE_KNOWN), ("free, speculated", FREE_GUESSED), ("plan", OUTLINE)]
-    _draw_strip(draw, view, entries, WHITE)
+    _draw_strip(draw, view, [(style.say(text), sign) for text, sign in entries], WHITE, style)
     return image
 
 
-def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
+def plan_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (c)."""
     view = view or fit_view(plan_bounds(plan))
     walls = poche(plan)
     doors = [opening.polygon for opening in walls.openings]
-    names = [_place_name(view, region, doors) for region in plan.regions]
+    names = [_place_name(view, region, doors, style) for region in plan.regions]
     image, draw = finish(_ground(plan, view, walls, names), _ground_colours(), view)
     for region in plan.regions:
         _draw_sides(draw, view, region)
@@ -143,11 +155,11 @@ def plan_image(plan: FloorPlan, view: View | None = None) -> Image.Image:
         _draw_door(draw, view, opening)
     for placed in names:
         draw_block(draw, placed, INK)
-    _draw_strip(draw, view, _plan_legend(plan), INK)
+    _draw_strip(draw, view, _plan_legend(plan, style), INK, style)
     return image
 
 
-def _plan_legend(plan: FloorPlan) -> list[tuple[str, Any]]:
+def _plan_legend(plan: FloorPlan, style: DrawingStyle) -> list[tuple[str, Any]]:
     """Words and swatches: those of what the plan has."""
     entries: list[tuple[str, Any]] = [("room", ROOM), ("corridor", CORRIDOR), ("door", DOOR)]
     if any(door.shut for door in plan.doors):
@@ -156,14 +168,18 @@ def _plan_legend(plan: FloorPlan) -> list[tuple[str, Any]]:
         entries.append(("predicted", Swatch(ROOM, "hatched")))
     if any(side.speculated for region in plan.regions for side in region.sides):
         entries.append(("guessed side", Swatch(WHITE, "dashed")))
-    total, count = sum(r.area for r in plan.regions), len(plan.regions)
-    return [*entries, (f"{count} region{'s' * (count != 1)}, {total:.1f} m²", None)]
+    words = [(style.say(text), sign) for text, sign in entries]
+    total = style.area(sum(r.area for r in plan.regions), 1)
+    return [*words, (f"{style.count(len(plan.regions), 'region')}, {total}", None)]
 
 
-def _draw_strip(draw: Any, view: View, entries: list[tuple[str, Any]], ink: Colour) -> None:
-    bar = 0 if view.width < NARROW else round((BAR_SHARE + 0.05) * view.width)
-    draw_caption(draw, entries, view.height + 10 + ROW / 2, ink, view.width - bar)
-    draw_scale_bar(draw, view, view.width - 24, view.height + view.strip - 10 - ROW / 2 + 10, ink)
+def _draw_strip(
+    draw: Any, view: View, entries: list[tuple[str, Any]], ink: Colour, style: DrawingStyle
+) -> None:
+    beside = (1 - BAR_SHARE - 0.05) * view.width  # the bar
+    rows = (view.width, beside) if view.width < NARROW else (beside,)
+    draw_caption(draw, entries, view.height + 10 + ROW / 2, ink, rows)
+    draw_scale_bar(draw, view, view.width - 24, view.height + view.strip - 10 - ROW / 2 + 10, ink, style)
 
 
 def _dots(codes: NDArray[np.uint8], view: View, xy: NDArray[Any], code: int) -> None:
@@ -252,11 +268,11 @@ def _draw_door(draw: Any, view: View, opening: Opening) -> None:
         draw.line([tuple(p) for p in view.pixels(middle).round().tolist()], fill=INK, width=SHUT_LEAF)
 
 
-def _place_name(view: View, region: Region, doors: Sequence[Any]) -> Placed:
+def _place_name(view: View, region: Region, doors: Sequence[Any], style: DrawingStyle) -> Placed:
     """The number or name, and the area where there is room for it, off the doors."""
     near = [door for door in doors if region.polygon.intersects(door)]
     rest = region.polygon.difference(shapely.union_all(near)) if near else region.polygon
     free = max(shapely.get_parts(rest), key=lambda part: part.area, default=region.polygon)
-    lines = (Line(region.name, NAME, "name"), Line(f"{region.area:.1f} m²", AREA, "area"))
+    lines = (Line(region.name, NAME, "name"), Line(style.area(region.area, 1), AREA, "area"))
     floor = shapely.transform(region.polygon, view.pixels)
     return place(lines, shapely.transform(free, view.pixels), PAD, floor)

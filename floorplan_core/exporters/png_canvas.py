@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters.placement import LEADING, Placed, block_size
 from floorplan_core.model import FloorPlan
 
@@ -28,10 +30,11 @@ LONG_SIDE = 1600  # pixels
 BORDER = 1.0  # metres around the plan
 ROW = 44  # pixels: height of a row of the strip under the plan
 AIR = 3  # pixels around names: hatching leaves them free
-NARROW = 1100  # pixels: narrower pictures have caption and scale bar in two rows
-BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres
+NARROW = 1400  # pixels: narrower pictures have caption and scale bar in two rows
+BAR_LENGTHS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres or feet
 BAR_SHARE = 0.2  # of the picture's width that the scale bar may take
-CAPTION = 18  # pixels: its text
+CAPTION = (18, 16, 14, 12)  # pixels: its text, the largest at which all of it fits
+SPACE, WORD_SPACE = 28, 10  # pixels between its entries, and from swatch to word
 SIGN = (26, 16)  # pixels: width and height of its swatches
 WHITE = (255, 255, 255)
 SUPERSCRIPT, RAISE, CAP = 0.62, 0.32, 0.72  # of the font size: a raised 2, its lift; height of capitals
@@ -122,6 +125,20 @@ def font(size: int) -> Any:
     return ImageFont.load_default(size=size)
 
 
+@lru_cache(maxsize=64)
+def _wide_font(size: int) -> Any:
+    """The font of the workbench, for letters that Pillow's own has not."""
+    from importlib.resources import files
+
+    data = (files("floorcast_resources") / "fonts" / "Inter-Regular.ttf").read_bytes()
+    return ImageFont.truetype(BytesIO(data), size)
+
+
+def face(text: str, size: int) -> Any:
+    """The font that has the letters of ``text``: umlauts, fractions."""
+    return font(size) if text.replace("²", "").isascii() else _wide_font(size)
+
+
 def draw_text(
     draw: Any, at: tuple[float, float], text: str, size: int, ink: Colour | int, align: float = 0.0
 ) -> float:
@@ -130,7 +147,7 @@ def draw_text(
     Pillow's font has no superscript two, so one is made of a small raised 2.
     """
     parts = [(part, i % 2 == 1) for i, part in enumerate(re.split("(²)", text)) if part]
-    fonts = [font(max(1, round(size * SUPERSCRIPT)) if raised else size) for _, raised in parts]
+    fonts = [face(text, max(1, round(size * SUPERSCRIPT)) if raised else size) for _, raised in parts]
     shown = ["2" if raised else part for part, raised in parts]
     widths = [float(draw.textlength(t, font=f)) for t, f in zip(shown, fonts, strict=True)]
     x, baseline = at[0] - align * sum(widths), at[1] + size * CAP / 2
@@ -169,13 +186,17 @@ def draw_dashed(draw: Any, a: Float, b: Float, colour: Colour, width: int, dash:
         draw.line([tuple(e) for e in ends], fill=colour, width=width)
 
 
-def draw_scale_bar(draw: Any, view: View, x: float, y: float, colour: Colour) -> None:
+def draw_scale_bar(
+    draw: Any, view: View, x: float, y: float, colour: Colour, style: DrawingStyle = PLAIN
+) -> None:
     """A bar of a round length with its right end at ``x`` and its line at ``y``."""
-    fitting = [m for m in BAR_LENGTHS if m * view.scale <= BAR_SHARE * view.width]
+    scale = view.scale * style.metres_per_unit
+    fitting = [m for m in BAR_LENGTHS if m * scale <= BAR_SHARE * view.width]
     length = max(fitting, default=BAR_LENGTHS[0])
-    left = x - length * view.scale
+    left = x - length * scale
     draw.rectangle([left, y - 3, x, y + 2], fill=colour)
-    draw.text(((left + x) / 2, y - 8), f"{length:g} m", fill=colour, font=font(18), anchor="mb")
+    text = f"{style.short(length)} {style.unit}"
+    draw.text(((left + x) / 2, y - 8), text, fill=colour, font=font(18), anchor="mb")
 
 
 @dataclass(frozen=True)
@@ -186,20 +207,40 @@ class Swatch:
     look: str = "plain"  # or "hatched", "dashed", "leaf"
 
 
-def draw_caption(
-    draw: Any, entries: Iterable[tuple[str, Colour | Swatch | None]], y: float, ink: Colour, width: int
-) -> None:
-    """Swatches and words from the left, in rows no longer than ``width``; without a swatch text only."""
-    left = 24.0
-    x = left
-    for text, sign in entries:
-        needed = draw.textlength(text, font=font(CAPTION)) + (SIGN[0] + 10 if sign is not None else 0)
-        if x > left and x + needed > width - left:
-            x, y = left, y + ROW
+Entry = tuple[str, Colour | Swatch | None]
+
+
+def draw_caption(draw: Any, entries: Sequence[Entry], y: float, ink: Colour, rows: Sequence[float]) -> None:
+    """Swatches and words from the left, in ``rows`` of so many pixels; without a swatch text only."""
+    for size in CAPTION:
+        places = _places(draw, entries, rows, size)
+        if len(places) == len(entries):
+            break
+    for (text, sign), (x, row) in zip(entries, places, strict=False):
+        at = y + row * ROW
         if sign is not None:
-            _draw_swatch(draw, x, y, sign if isinstance(sign, Swatch) else Swatch(sign), ink)
-            x += SIGN[0] + 10
-        x += draw_text(draw, (x, y), text, CAPTION, ink) + 28
+            _draw_swatch(draw, x, at, sign if isinstance(sign, Swatch) else Swatch(sign), ink)
+        draw_text(draw, (x + _lead(sign), at), text, size, ink)
+
+
+def _places(draw: Any, entries: Sequence[Entry], rows: Sequence[float], size: int) -> list[tuple[float, int]]:
+    """Where entries begin, and their row; as many as fit."""
+    left = x = 24.0
+    row, places = 0, []
+    for text, sign in entries:
+        needed = _lead(sign) + draw.textlength(text, font=face(text, size))
+        if x > left and x + needed > rows[row] - left:
+            x, row = left, row + 1
+        if row == len(rows):
+            break
+        places.append((x, row))
+        x += needed + SPACE
+    return places
+
+
+def _lead(sign: Colour | Swatch | None) -> float:
+    """Pixels before the word."""
+    return 0.0 if sign is None else SIGN[0] + WORD_SPACE
 
 
 def _draw_swatch(draw: Any, x: float, y: float, swatch: Swatch, ink: Colour) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,19 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
+Papers = tuple[tuple[str, float, float], ...]  # name, short and long side
+
 SCALES = (50, 100, 200, 500, 1000, 2000, 5000)
-PAPERS = (("A4", 210.0, 297.0), ("A3", 297.0, 420.0), ("A2", 420.0, 594.0), ("A1", 594.0, 841.0))
-LARGEST = PAPERS[1]  # the largest paper that an office prints; a coarser scale is chosen before a larger one
+PAPERS: Papers = (("A4", 210.0, 297.0), ("A3", 297.0, 420.0), ("A2", 420.0, 594.0), ("A1", 594.0, 841.0))
+IMPERIAL_SCALES = {  # as architects and, beyond 1/32 inch, engineers have them on their rulers
+    48: '1/4" = 1\'', 64: '3/16" = 1\'', 96: '1/8" = 1\'', 128: '3/32" = 1\'', 192: '1/16" = 1\'',
+    384: '1/32" = 1\'',
+    600: '1" = 50\'', 1200: '1" = 100\'', 2400: '1" = 200\'', 4800: '1" = 400\'',
+}  # fmt: skip
+IMPERIAL_PAPERS: Papers = (
+    ("Letter", 215.9, 279.4), ("Tabloid", 279.4, 431.8), ("ANSI C", 431.8, 558.8), ("ANSI D", 558.8, 863.6),
+)  # fmt: skip
+LARGEST = 1  # of the papers: the largest that an office prints; a coarser scale comes before a larger one
 MARGIN = 13.0
 DIMENSIONS = 18.0  # room for two rows of dimensions on the left and at the top
 CHAIN = 11.0  # room for one row on the right and below
@@ -36,6 +46,7 @@ class Sheet:
     size: tuple[float, float]  # width and height of the plan with its walls on the page
     blocks: tuple[tuple[float, float], ...]  # upper left corners of the information blocks
     beside: bool  # the blocks stand beside the plan, not below it
+    imperial: bool = False  # scale and paper
 
     @property
     def mm(self) -> float:
@@ -46,7 +57,13 @@ class Sheet:
     def paper(self) -> str:
         """The smallest paper that holds the sheet at full scale."""
         short, long = sorted((self.width, self.height))
-        return next((name for name, a, b in PAPERS if short <= a and long <= b), "A0 or larger")
+        papers, beyond = (IMPERIAL_PAPERS, "E or larger") if self.imperial else (PAPERS, "A0 or larger")
+        return next((name for name, a, b in papers if short <= a and long <= b), beyond)
+
+    @property
+    def scale_text(self) -> str:
+        """The scale as it is written: ``1:100``, or ``1/8" = 1'``."""
+        return IMPERIAL_SCALES[self.scale] if self.imperial else f"1:{self.scale}"
 
     def to_page(self, points: Float) -> Float:
         """(N, 2) plan metres to (N, 2) page millimetres, y down."""
@@ -60,18 +77,20 @@ class Sheet:
         return shapely.transform(shape, self.to_page)
 
 
-def lay_out(bounds: tuple[float, float, float, float]) -> Sheet:
+def lay_out(bounds: tuple[float, float, float, float], imperial: bool = False) -> Sheet:
     """The sheet for a plan (walls included) of these bounds: x0, y0, x1, y1 in metres.
 
-    The finest scale at which everything fits the largest usual paper.
+    The finest scale at which everything fits the largest usual paper, of the metric or imperial ones.
     """
-    sheets = [_at_scale(bounds, scale) for scale in SCALES]
+    scales = IMPERIAL_SCALES if imperial else SCALES
+    sheets = [replace(_at_scale(bounds, scale), imperial=imperial) for scale in scales]
     return next((s for s in sheets if _fits(s)), sheets[-1])
 
 
 def _fits(sheet: Sheet) -> bool:
     short, long = sorted((sheet.width, sheet.height))
-    return short <= LARGEST[1] and long <= LARGEST[2]
+    _, a, b = (IMPERIAL_PAPERS if sheet.imperial else PAPERS)[LARGEST]
+    return short <= a and long <= b
 
 
 def _at_scale(bounds: tuple[float, float, float, float], scale: int) -> Sheet:

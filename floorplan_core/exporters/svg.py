@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
 from floorplan_core.exporters.door_symbols import Leaf, swings
 from floorplan_core.exporters.sheet import Sheet, lay_out
@@ -22,7 +23,7 @@ from floorplan_core.exporters.svg_canvas import FONT, SvgCanvas, number
 from floorplan_core.exporters.svg_dimensions import draw_dimensions
 from floorplan_core.exporters.svg_labels import draw_labels, label_ground, place_labels
 from floorplan_core.exporters.walls import Opening, Poche, poche, predicted_floor
-from floorplan_core.model import FloorPlan, Region
+from floorplan_core.model import Door, FloorPlan, Region
 
 HATCH = 1.5  # mm between the lines of predicted floor
 WALL_HATCH = 0.9  # mm between the lines of a guessed wall
@@ -40,31 +41,38 @@ class SvgExporter:
         "A drawing at a usual scale: walls, doors, areas, dimensions, seen and predicted told apart."
     )
 
+    def __init__(self, style: DrawingStyle = PLAIN) -> None:
+        self._style = style
+
+    def styled(self, style: DrawingStyle) -> SvgExporter:
+        """The exporter of drawings in these units, in this language."""
+        return SvgExporter(style)
+
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the drawing of ``plan`` to ``path`` as UTF-8."""
-        path.write_text(svg_text(plan), encoding="utf-8", newline="\n")
+        path.write_text(svg_text(plan, self._style), encoding="utf-8", newline="\n")
 
 
-def svg_text(plan: FloorPlan) -> str:
+def svg_text(plan: FloorPlan, style: DrawingStyle = PLAIN) -> str:
     """The drawing of ``plan`` as the text of an SVG 1.1 document."""
     walls = poche(plan)
-    sheet = lay_out(_bounds(plan, walls))
+    sheet = lay_out(_bounds(plan, walls), style.imperial)
     swung = swings(walls.openings, plan.regions)
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
-    _draw_rooms(canvas, sheet, plan)
+    _draw_rooms(canvas, sheet, plan, style)
     swept = _swept(sheet, swung)
     openings = [sheet.geometry(o.polygon) for o in walls.openings]
-    labels = place_labels(sheet, plan, [*swept, *openings])
+    labels = place_labels(sheet, plan, [*swept, *openings], style)
     text = label_ground(labels)
     _draw_predicted(canvas, sheet, plan, text)
     _draw_walls(canvas, sheet, walls)
-    _draw_doors(canvas, sheet, walls, swung)
-    draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]))
+    _draw_doors(canvas, sheet, walls, swung, style)
+    draw_dimensions(canvas, sheet, plan.regions, shapely.union_all([text, *swept, *openings]), style)
     with canvas.group(id="annotation", fill=palette.INK):
         draw_labels(canvas, labels)
-        draw_blocks(canvas, sheet, plan)
-    return "\n".join([_head(sheet, plan), _definitions(plan), *canvas.lines, "</svg>", ""])
+        draw_blocks(canvas, sheet, plan, style)
+    return "\n".join([_head(sheet, plan, style), _definitions(plan), *canvas.lines, "</svg>", ""])
 
 
 def _bounds(plan: FloorPlan, walls: Poche) -> tuple[float, float, float, float]:
@@ -73,14 +81,15 @@ def _bounds(plan: FloorPlan, walls: Poche) -> tuple[float, float, float, float]:
     return x0, y0, x1, y1
 
 
-def _head(sheet: Sheet, plan: FloorPlan) -> str:
+def _head(sheet: Sheet, plan: FloorPlan, style: DrawingStyle) -> str:
     canvas = SvgCanvas()
-    canvas.title(f"Floor plan of {plan.source}, 1:{sheet.scale}")
+    canvas.title(style.say("Floor plan of {}, {}", plan.source, sheet.scale_text))
     w, h = number(sheet.width), number(sheet.height)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="{w}mm" height="{h}mm" '
-        f'viewBox="0 0 {w} {h}" font-family="{FONT}" style="font-variant-numeric: tabular-nums">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" version="1.1" xml:lang="{style.language}" '
+        f'width="{w}mm" height="{h}mm" viewBox="0 0 {w} {h}" '
+        f'font-family="{FONT}" style="font-variant-numeric: tabular-nums">\n'
         f"{canvas.lines[0]}"
     )
 
@@ -104,17 +113,17 @@ def _hatch(ident: str, step: float, width: float, colour: str, turn: int, ground
     )
 
 
-def _draw_rooms(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan) -> None:
+def _draw_rooms(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle) -> None:
     with canvas.group(id="rooms"):
         for i, region in enumerate(plan.regions):
-            with canvas.group(region_title(region), id=f"region-{i + 1}"):
+            with canvas.group(region_title(region, style), id=f"region-{i + 1}"):
                 canvas.area(sheet.geometry(region.polygon), fill=palette.tone(region.label).tint)
 
 
-def region_title(region: Region) -> str:
+def region_title(region: Region, style: DrawingStyle = PLAIN) -> str:
     """What the tooltip of a region says."""
-    seen = 100 * (1 - region.speculated_fraction)
-    return f"{region.label.capitalize()} {region.name}: {region.area:.2f} m², {seen:.0f} % seen ({region.id})"
+    seen = style.say("{} % seen", f"{100 * (1 - region.speculated_fraction):.0f}")
+    return f"{style.label(region.label)} {region.name}: {style.area(region.area)}, {seen} ({region.id})"
 
 
 def _draw_predicted(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, text: Any) -> None:
@@ -154,17 +163,23 @@ def _draw_walls(canvas: SvgCanvas, sheet: Sheet, walls: Poche) -> None:
         )
 
 
-def _draw_doors(canvas: SvgCanvas, sheet: Sheet, walls: Poche, swung: list[tuple[Leaf, ...]]) -> None:
+def _draw_doors(
+    canvas: SvgCanvas, sheet: Sheet, walls: Poche, swung: list[tuple[Leaf, ...]], style: DrawingStyle
+) -> None:
     with canvas.group(id="doors", fill="none", stroke=palette.DOOR.accent, stroke_width=FINE):
         for opening, made in zip(walls.openings, swung, strict=True):
-            door = opening.door
-            kind = f"shut {door.kind}" if door.shut else door.kind
-            title = f"{kind.capitalize()} {door.id}: {door.width:.2f} m, confidence {door.confidence:.2f}"
-            with canvas.group(title):
+            with canvas.group(door_title(opening.door, style)):
                 canvas.area(sheet.geometry(opening.polygon), fill=palette.DOOR.tint, stroke="none")
                 _draw_faces(canvas, sheet, opening, dashed=not made)
                 for leaf in made:
                     _draw_leaf(canvas, sheet, leaf)
+
+
+def door_title(door: Door, style: DrawingStyle = PLAIN) -> str:
+    """What the tooltip of a door says."""
+    kind = style.say((f"shut {door.kind}" if door.shut else door.kind).capitalize())
+    sure = style.say("confidence {}", style.number(door.confidence, 2))
+    return f"{kind} {door.id}: {style.length(door.width)}, {sure}"
 
 
 def _draw_faces(canvas: SvgCanvas, sheet: Sheet, opening: Opening, dashed: bool) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
+from floorplan_core.exporters.placement import BOLD
 from floorplan_core.exporters.sheet import BLOCKS, COLUMN, MARGIN, Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
 from floorplan_core.model import FloorPlan
@@ -18,21 +20,21 @@ LEGEND_TOP, LEGEND_DEPTH = 9.4, 22.6  # mm below the block's top where the legen
 LEGEND_ROW, LEGEND_AIR = 5.4, 1.0  # mm from entry to entry where few are, and at least between swatches
 LEAF = 0.32  # mm, as thick as the leaves in the plan
 SIGNS = 4  # entries of the first column: walls and floors
-BAR_LENGTHS = (1, 2, 5, 10, 20, 50, 100, 200)  # metres
+BAR_LENGTHS = (1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres or feet
 BAR_SHARE = 0.62  # of the block's width that the scale bar may take
 NORTH = 6.5  # mm, radius of the arrow's circle
 
 
-def draw_blocks(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan) -> None:
+def draw_blocks(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle = PLAIN) -> None:
     """The three information blocks, under the plan or beside it."""
     title, legend, scale = sheet.blocks
     if not sheet.beside:
         canvas.line(title, (sheet.width - MARGIN, title[1]), stroke=palette.INK, stroke_width=RULE)
-    _draw_title(canvas, sheet, plan, *title)
-    _draw_legend(canvas, sheet, plan, *legend)
+    _draw_title(canvas, sheet, plan, style, *title)
+    _draw_legend(canvas, sheet, plan, style, *legend)
     with canvas.group(id="scale"):
-        _draw_scale_bar(canvas, sheet, *scale)
-        _draw_north(canvas, sheet, plan, *scale)
+        _draw_scale_bar(canvas, sheet, style, *scale)
+        _draw_north(canvas, sheet, plan, style, *scale)
 
 
 def _width(sheet: Sheet, block: int) -> float:
@@ -45,13 +47,15 @@ def _draw_rule(canvas: SvgCanvas, sheet: Sheet, block: int, x: float, y: float) 
         canvas.line((x, y), (x + _width(sheet, block), y), stroke=palette.INK, stroke_width=RULE)
 
 
-def _draw_title(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+def _draw_title(
+    canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle, x: float, y: float
+) -> None:
     with canvas.group(id="title-block"):
         _draw_rule(canvas, sheet, 0, x, y)
-        size = _fitting(plan.source, TITLE, _width(sheet, 0))
-        canvas.text("Floor plan", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
+        size = _fitting(plan.source, TITLE, _width(sheet, 0) / BOLD)
+        canvas.text(style.say("Floor plan"), x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         canvas.text(plan.source, x, y + 11.2, size, font_weight="600")
-        for i, text in enumerate(title_lines(sheet, plan)):
+        for i, text in enumerate(title_lines(sheet, plan, style)):
             fitting = _fitting(text, BODY, _width(sheet, 0))
             canvas.text(text, x, y + 16.4 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
 
@@ -62,27 +66,24 @@ def _fitting(text: str, size: float, room: float) -> float:
     return size if width <= room else size * room / width
 
 
-def title_lines(sheet: Sheet, plan: FloorPlan) -> list[str]:
+def title_lines(sheet: Sheet, plan: FloorPlan, style: DrawingStyle = PLAIN) -> list[str]:
     """What the title block says under the name."""
     free, total = (sum(getattr(r, name) for r in plan.regions) for name in ("free_cells", "total_cells"))
-    observed = 100.0 * free / total if total else 0.0
-    area = sum(r.area for r in plan.regions)
-    storey = f" · storey {plan.storey}" if plan.storey else ""
-    height = plan.grid.slice_height
-    slice_at = f" · slice {height:.2f} m above the floor" if height > 0 else ""  # a grid map has no heights
-    counts = f"{_count(len(plan.regions), 'region')} · {_count(len(plan.doors), 'door')}{storey}"
+    observed = f"{100.0 * free / total if total else 0.0:.0f}"
+    area = style.area(sum(r.area for r in plan.regions))
+    counts = [style.count(len(plan.regions), "region"), style.count(len(plan.doors), "door")]
+    counts += [style.say("storey {}", plan.storey)] if plan.storey else []
+    counts.append(style.say("lengths in feet and inches" if style.imperial else "lengths in metres"))
+    last, height = [style.say("Doors swing by convention")], plan.grid.slice_height
+    last += [style.say("slice {} above the floor", style.length(height))] if height > 0 else []
+    yaw, support = style.number(math.degrees(plan.frame.yaw), 2), f"{100 * plan.frame.support:.0f}"
     return [
-        f"{area:.2f} m² net internal area to wall faces; {observed:.0f} % observed",
-        f"{counts} · lengths in metres",
-        f"Scale 1:{sheet.scale} when printed on {sheet.paper} at full size",
-        f"Drawn along the walls: {math.degrees(plan.frame.yaw):.2f}° from the survey's axes "
-        f"(support {100 * plan.frame.support:.0f} %)",
-        f"Doors swing by convention{slice_at}",
+        style.say("{} net internal area to wall faces; {} % observed", area, observed),
+        " · ".join(counts),
+        style.say("Scale {} when printed on {} at full size", sheet.scale_text, style.say(sheet.paper)),
+        style.say("Drawn along the walls: {}° from the survey's axes (support {} %)", yaw, support),
+        " · ".join(last),
     ]
-
-
-def _count(n: int, noun: str) -> str:
-    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
 
 
 def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
@@ -102,11 +103,13 @@ def legend_entries(plan: FloorPlan) -> list[tuple[str, dict[str, Any]]]:
     ]
 
 
-def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+def _draw_legend(
+    canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle, x: float, y: float
+) -> None:
     """Walls and floors in the first column; labels and doors, those that the plan has, in the second."""
     with canvas.group(id="legend"):
         _draw_rule(canvas, sheet, 1, x, y)
-        canvas.text("Legend", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
+        canvas.text(style.say("Legend"), x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         entries, doors = legend_entries(plan), door_kinds(plan)
         half = _width(sheet, 1) / 2
         pitch = min(LEGEND_ROW, LEGEND_DEPTH / max(len(entries) + len(doors) - SIGNS, SIGNS))
@@ -117,11 +120,11 @@ def _draw_legend(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: 
             if text == "Floor, predicted":
                 canvas.box(left, top, *size, fill=palette.ROOM.tint)
             canvas.box(left, top, *size, **look)
-            _draw_word(canvas, text, left, top, size, half)
+            _draw_word(canvas, style.say(text), left, top, size, half)
         for i, text in enumerate(doors, len(entries) - SIGNS):
             top = y + LEGEND_TOP + i * pitch
             _draw_door_swatch(canvas, text, x + half, top, size)
-            _draw_word(canvas, text, x + half, top, size, half)
+            _draw_word(canvas, style.say(text), x + half, top, size, half)
 
 
 def door_kinds(plan: FloorPlan) -> list[str]:
@@ -152,26 +155,29 @@ def _draw_door_swatch(canvas: SvgCanvas, text: str, x: float, top: float, size: 
         canvas.line((x, top + h / 2), (x + w, top + h / 2), stroke=palette.DOOR.accent, stroke_width=LEAF)
 
 
-def _draw_scale_bar(canvas: SvgCanvas, sheet: Sheet, x: float, y: float) -> None:
+def _draw_scale_bar(canvas: SvgCanvas, sheet: Sheet, style: DrawingStyle, x: float, y: float) -> None:
     """Alternating fields; the longest round length that fits."""
     _draw_rule(canvas, sheet, 2, x, y)
     room = _width(sheet, 2) * BAR_SHARE
-    length = max((m for m in BAR_LENGTHS if m * sheet.mm <= room), default=BAR_LENGTHS[0])
+    mm = sheet.mm * style.metres_per_unit
+    length = max((m for m in BAR_LENGTHS if m * mm <= room), default=BAR_LENGTHS[0])
     fields = 4 if length % 5 else 5
-    field = length * sheet.mm / fields
+    field = length * mm / fields
     top = y + 21.6
-    canvas.text("Scale and north", x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
-    canvas.text(f"1:{sheet.scale}", x, y + 11.2, SCALE, font_weight="600")
+    canvas.text(style.say("Scale and north"), x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
+    canvas.text(sheet.scale_text, x, y + 11.2, SCALE, font_weight="600")
     for i in range(fields):
         fill = palette.INK if i % 2 == 0 else palette.PAPER
         canvas.box(x + i * field, top, field, 1.4, fill=fill, stroke=palette.INK, stroke_width=0.15)
     for share, anchor in ((0, "start"), (0.5, "middle"), (1, "end")):
-        text = f"{length * share:g}" + (" m" if share == 1 else "")
+        text = style.short(length * share) + (f" {style.unit}" if share == 1 else "")
         if share != 0.5 or length > 1:
-            canvas.text(text, x + share * length * sheet.mm, top - 1.4, SMALL, text_anchor=anchor)
+            canvas.text(text, x + share * length * mm, top - 1.4, SMALL, text_anchor=anchor)
 
 
-def _draw_north(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: float) -> None:
+def _draw_north(
+    canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle, x: float, y: float
+) -> None:
     """The direction of the world's +y axis."""
     right, up = (plan.frame.rotation[:2, :2] @ (0.0, 1.0)).tolist()
     turn = math.degrees(math.atan2(right, up))
@@ -191,4 +197,5 @@ def _draw_north(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, x: float, y: f
                 stroke_width=0.15,
             )
             canvas.text("N", 0.0, -r - 1.0, 2.6, text_anchor="middle", font_weight="600")
-        canvas.text("north = world +y", 0.0, r + 6.0, SMALL, text_anchor="middle", fill=palette.GREY)
+        note = style.say("north = world +y")
+        canvas.text(note, 0.0, r + 6.0, SMALL, text_anchor="middle", fill=palette.GREY)

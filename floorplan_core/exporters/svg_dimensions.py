@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
 from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, overall
 from floorplan_core.exporters.sheet import Sheet
@@ -23,7 +24,7 @@ CHAIN_ROW, OVERALL_ROW = 6.5, 13.0  # mm from the walls
 TICK = 0.8  # mm, half a tick
 TEXT, TOTAL = 1.9, 2.2  # mm
 SMALLEST = 1.35  # mm; stretches too short for such text are left out
-FILL = 0.95  # of the stretch that text may take
+FILL = 0.86  # of the stretch that text may take: that of the next one begins a wall farther on
 RAISE = 0.8  # mm between text and line
 INSIDE = 1.75  # mm, widths inside the plan
 SLIM = 1.8  # arms this much longer than wide get a width
@@ -47,7 +48,9 @@ class Side:
 TOP, BOTTOM, LEFT, RIGHT = Side(1, 1), Side(1, -1), Side(0, -1), Side(0, 1)
 
 
-def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region], taken: Any) -> None:
+def draw_dimensions(
+    canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region], taken: Any, style: DrawingStyle = PLAIN
+) -> None:
     """Chains at the top and left, and where they say more at the bottom and right; overall lengths; widths.
 
     ``taken`` is ground on the page that the dimensions inside the plan keep off.
@@ -59,18 +62,18 @@ def draw_dimensions(canvas: SvgCanvas, sheet: Sheet, regions: Sequence[Region], 
             return
         for first, second in ((TOP, BOTTOM), (LEFT, RIGHT)):
             one, other = (chain(regions, side.axis, side.sign) for side in (first, second))
-            _draw_row(canvas, sheet, first, one, CHAIN_ROW, TEXT)
+            _draw_row(canvas, sheet, first, one, CHAIN_ROW, TEXT, style)
             start, end = overall(regions, 1 - first.axis)
             total = [Span(start, end, float("nan"))]
             if differs(other, [*one, *total]):
-                _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT)
+                _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT, style)
             if len(one) > 1:
-                _draw_row(canvas, sheet, first, total, OVERALL_ROW, TOTAL)
+                _draw_row(canvas, sheet, first, total, OVERALL_ROW, TOTAL, style)
         for region in (r for r in regions if not is_rectangle(r)):
-            _draw_arms(canvas, sheet, region, taken)
+            _draw_arms(canvas, sheet, region, taken, style)
 
 
-def _draw_arms(canvas: SvgCanvas, sheet: Sheet, region: Region, taken: Any) -> None:
+def _draw_arms(canvas: SvgCanvas, sheet: Sheet, region: Region, taken: Any, style: DrawingStyle) -> None:
     """The clear width of a corridor's arms, where there is room for it."""
     for arm in arms(region.polygon, SLIM):
         for share in PLACES:
@@ -79,33 +82,41 @@ def _draw_arms(canvas: SvgCanvas, sheet: Sheet, region: Region, taken: Any) -> N
             a, b = sheet.to_page(ends if arm.axis == 0 else ends[:, ::-1])
             ground = shapely.LineString([a, b]).buffer(KEEP_OFF, cap_style="flat")
             if abs(b - a).sum() >= SHORTEST and not taken.intersects(ground):
-                _draw_width(canvas, a, b, arm)
+                _draw_width(canvas, a, b, arm, style.dimension(arm.width))
                 break
 
 
-def _draw_width(canvas: SvgCanvas, a: Float, b: Float, arm: Arm) -> None:
+def _draw_width(canvas: SvgCanvas, a: Float, b: Float, arm: Arm, text: str) -> None:
     canvas.line(a.tolist(), b.tolist())
     for x, y in (a.tolist(), b.tolist()):
         canvas.line((x - TICK, y + TICK), (x + TICK, y - TICK), stroke_width=2 * LINE, stroke=palette.INK)
     x, y = ((a + b) / 2).tolist()
     x, y = (x, y - RAISE) if arm.axis == 0 else (x - RAISE, y)
     turn = 0.0 if arm.axis == 0 else -90.0
-    canvas.text(f"{arm.width:.2f}", x, y, INSIDE, turn=turn, stroke="none", fill=palette.INK)
+    fitting = _text_size(float(abs(b - a).sum()), text, INSIDE)
+    canvas.text(text, x, y, fitting, turn=turn, stroke="none", fill=palette.INK)
 
 
 def _draw_row(
-    canvas: SvgCanvas, sheet: Sheet, side: Side, spans: Sequence[Span], row: float, size: float
+    canvas: SvgCanvas,
+    sheet: Sheet,
+    side: Side,
+    spans: Sequence[Span],
+    row: float,
+    size: float,
+    style: DrawingStyle,
 ) -> None:
     at = _row(sheet, side, row)
     for span in spans:
-        if _text_size(span.length * sheet.mm, f"{span.length:.2f}", size) < SMALLEST:
+        text = style.dimension(span.length)
+        if _text_size(span.length * sheet.mm, text, size) < SMALLEST:
             continue
         a, b = _along(sheet, side, span.start), _along(sheet, side, span.end)
         canvas.line(_point(side, a, at), _point(side, b, at))
         for end in (a, b):
             _draw_end(canvas, sheet, side, end, at, span.face)
         x, y = _point(side, (a + b) / 2, at - RAISE)
-        text, turn = f"{span.length:.2f}", 0.0 if side.axis == 1 else -90.0
+        turn = 0.0 if side.axis == 1 else -90.0
         fitting = _text_size(abs(b - a), text, size)
         canvas.text(text, x, y, fitting, turn=turn, stroke="none", fill=palette.INK)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import shapely
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
 from floorplan_core.exporters.placement import LEADING, Line, Placed, block_size, place
 from floorplan_core.exporters.sheet import Sheet
@@ -20,9 +21,11 @@ RECTANGULAR = 0.995  # share of its bounds that a region fills to be called a re
 CAP = 0.72  # height of capitals over font size
 
 
-def place_labels(sheet: Sheet, plan: FloorPlan, swept: Sequence[Any]) -> list[Placed]:
+def place_labels(
+    sheet: Sheet, plan: FloorPlan, swept: Sequence[Any], style: DrawingStyle = PLAIN
+) -> list[Placed]:
     """A label for each region; ``swept`` are polygons on the page, doors and their swing: text keeps off."""
-    return [_place(region, sheet.geometry(region.polygon), swept) for region in plan.regions]
+    return [_place(region, sheet.geometry(region.polygon), swept, style) for region in plan.regions]
 
 
 def label_ground(labels: Sequence[Placed]) -> Any:
@@ -42,14 +45,14 @@ def draw_labels(canvas: SvgCanvas, labels: Sequence[Placed]) -> None:
             _draw(canvas, label)
 
 
-def label_lines(region: Region) -> tuple[Line, ...]:
+def label_lines(region: Region, style: DrawingStyle = PLAIN) -> tuple[Line, ...]:
     """Name with label, area, clear dimensions of a rectangle: the most important first."""
-    lines = [Line(display_name(region), NAME, "name"), Line(f"{region.area:.2f} m²", AREA, "area")]
+    lines = [Line(display_name(region, style), NAME, "name"), Line(style.area(region.area), AREA, "area")]
     if not region.name.isdigit():
-        lines.append(Line(region.label, NOTE, "note"))
+        lines.append(Line(style.say(region.label), NOTE, "note"))
     if is_rectangle(region):
         x0, y0, x1, y1 = region.polygon.bounds
-        lines.append(Line(f"{x1 - x0:.2f} × {y1 - y0:.2f}", NOTE, "note"))
+        lines.append(Line(f"{style.dimension(x1 - x0)} × {style.dimension(y1 - y0)}", NOTE, "note"))
     return tuple(lines)
 
 
@@ -59,16 +62,16 @@ def is_rectangle(region: Region) -> bool:
     return bool(region.area >= RECTANGULAR * (x1 - x0) * (y1 - y0))
 
 
-def display_name(region: Region) -> str:
+def display_name(region: Region, style: DrawingStyle = PLAIN) -> str:
     """``Room 3`` for a region that has only a number, else its name."""
-    return f"{region.label.capitalize()} {region.name}" if region.name.isdigit() else region.name
+    return f"{style.label(region.label)} {region.name}" if region.name.isdigit() else region.name
 
 
-def _place(region: Region, floor: Any, swept: Sequence[Any]) -> Placed:
+def _place(region: Region, floor: Any, swept: Sequence[Any], style: DrawingStyle) -> Placed:
     shapely.prepare(floor)
     near = [sector for sector in swept if floor.intersects(sector)]
     free = _largest(floor.difference(shapely.union_all(near))) if near else floor
-    placed = place(label_lines(region), free, PAD, floor)
+    placed = place(label_lines(region, style), free, PAD, floor)
     if not placed.fits and region.name.isdigit():
         number = (Line(region.name, NAME, "name"),)
         placed = place(number, free, PAD / 2, floor)
