@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.layout import Layout, lay_out
-from floorplan_core.layout_wings import part_layout, wing_of
+from floorplan_core.layout_wings import counted, part_layout, wing_of
 from floorplan_core.model import LayoutSegment, OccupancyGrid, Region, WallPoints, Wing
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, Said
+from floorplan_core.stages.corrections_islands import said_of_buildings
 from floorplan_core.stages.wall_points import thin_wall_points
 from floorplan_core.stages.wing_joins import join_doors, named
 from floorplan_core.stages.wings import Part
@@ -27,18 +28,20 @@ _WITHOUT = "A building of {0:.0f} x {1:.0f} m that stands apart gives no plan: {
 
 
 def add_islands(
-    main: Layout, parts: tuple[Part, ...], config: Config, observer: Observer
+    main: Layout, parts: tuple[Part, ...], config: Config, stage: StageRunner, observer: Observer, say: Said
 ) -> tuple[Layout, tuple[Wing, ...]]:
     """``main``, which is the layout of the first part, with all that the others hold.
 
-    Planes and segments of the others are theirs only (``Wing``, not turned). What a person said is about the
-    first. A building that gives no plan by itself is left out, with a remark.
+    Planes and segments of the others are theirs only (``Wing``, not turned). A building that gives no plan by
+    itself is left out, with a remark. ``say`` is what a person said of the whole site.
     """
-    made, wings, remarks = [main], list[Wing](), main.remarks
-    for part in parts[1:]:
+    says, odd = said_of_buildings(say, [part.evidence for part in parts])
+    made, wings, remarks = [main], list[Wing](), main.remarks + odd
+    for k, part in enumerate(parts[1:], start=1):
         quiet = Observer(observer.cancel)  # what a stage shows is of the first building
         try:
-            each = lay_out(part.evidence, config, StageRunner(quiet), quiet, Said(), part.cells)
+            runner = stage.part(f"building {k}", quiet)
+            each = lay_out(part.evidence, config, runner, quiet, says[k], part.cells)
         except NoPlanError as error:
             deep, wide = (n * part.evidence.cell for n in part.evidence.shape)
             remarks += Remarks(warnings=(_WITHOUT.format(wide, deep, error),))
@@ -50,11 +53,12 @@ def add_islands(
     remarks += Remarks(warnings=(_APART.format(len(made)),))
     grids = [each.grid for each in made]
     uncovered = [replace(each.grid, universe=each.cover.uncovered) for each in made]
+    grid = site_grid(grids)
     return replace(
         main,
-        regions=_regions(made),
+        regions=tuple(counted(r, grid) for r in _regions(made)),
         doors=join_doors([part_layout(each, 0.0) for each in made]),
-        grid=site_grid(grids),
+        grid=grid,
         cover=replace(main.cover, uncovered=site_grid(uncovered).universe),
         remarks=remarks,
     ), tuple(wings)

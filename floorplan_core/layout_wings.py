@@ -14,11 +14,13 @@ from floorplan_core.errors import NoPlanError
 from floorplan_core.layout import Layout, lay_out
 from floorplan_core.model import LayoutPlane, OccupancyGrid, Region, Wing
 from floorplan_core.model.corrections import RejectDoor
+from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import regions_mask
 from floorplan_core.model.layout import turned
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, Said, said_of_part
-from floorplan_core.stages.corrections_regions import opened
+from floorplan_core.stages.corrections_regions import SHAPED, opened
+from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import count_cells
 from floorplan_core.stages.wing_joins import (
     PartLayout,
@@ -34,13 +36,19 @@ from floorplan_core.steps import StageRunner
 
 
 def add_wings(
-    main: Layout, parts: tuple[Part, ...], config: Config, observer: Observer, say: Said
+    main: Layout,
+    parts: tuple[Part, ...],
+    config: Config,
+    stage: StageRunner,
+    observer: Observer,
+    say: Said,
+    seen: Evidence,
 ) -> tuple[Layout, tuple[Wing, ...]]:
     """``main``, which is the layout of the first part, with the regions and doors of the others.
 
     A wing that gives no plan by itself is left out, with a remark. ``say`` is what a person said of the whole
     plan: each part takes what is said of its walls and doors; regions are merged and split when all are
-    joined.
+    joined, and measured again in ``seen``, which is all that was seen in the axes of the plan.
     """
     whole, remarks = parts[0].evidence, main.remarks
     turns = [part.turn for part in parts]
@@ -51,9 +59,8 @@ def add_wings(
         degrees = math.degrees(part.turn)
         area = float(np.count_nonzero(part.cells)) * part.evidence.cell**2
         try:
-            made = lay_out(
-                part.evidence, config, StageRunner(quiet), quiet, said_of_part(say, k, turns), part.cells
-            )
+            own, runner = said_of_part(say, k, turns), stage.part(f"wing {k}", quiet)
+            made = lay_out(part.evidence, config, runner, quiet, own, part.cells)
         except NoPlanError as error:
             remarks += Remarks(
                 warnings=(f"A wing of {area:.0f} m2 at {degrees:.1f} degrees gives no plan: {error}",)
@@ -74,17 +81,26 @@ def add_wings(
     regions, merged, shaped = correct_joined_shapes(
         regions, say.shapes, turns, walls_of(found), grid, config.regions.min_area
     )
+    regions = _measured(regions, seen, grid)
     left = main.cover.uncovered & ~regions_mask(regions, grid)  # a region of a wing may have it
     joined = replace(
         main,
         planes=_opened(main.planes, merged, 0.0),
-        regions=tuple(_counted(r, grid) for r in regions),
+        regions=tuple(counted(r, grid) for r in regions),
         doors=join_doors(found, [c.at for c in say.doors if isinstance(c, RejectDoor)]),
         grid=grid,
         cover=replace(main.cover, uncovered=left),
         remarks=remarks + shaped,
     )
     return joined, tuple(replace(w, planes=_opened(w.planes, merged, w.turn)) for w in wings)
+
+
+def _measured(regions: tuple[Region, ...], seen: Evidence, grid: OccupancyGrid) -> tuple[Region, ...]:
+    """The regions, those that a person gave another shape with the height of what they are now."""
+    others = {r.id: r for r in regions if SHAPED & set(r.by_hand)}
+    measured = measure_heights(tuple(others.values()), seen, grid) if others else ()
+    new = {r.id: r for r in measured}
+    return tuple(new.get(r.id, r) for r in regions)
 
 
 def _opened(planes: tuple[LayoutPlane, ...], merged: tuple[Any, ...], turn: float) -> tuple[LayoutPlane, ...]:
@@ -94,7 +110,7 @@ def _opened(planes: tuple[LayoutPlane, ...], merged: tuple[Any, ...], turn: floa
     return planes
 
 
-def _counted(region: Region, grid: OccupancyGrid) -> Region:
+def counted(region: Region, grid: OccupancyGrid) -> Region:
     """The region with the cells that it has in the grid of the plan."""
     free, total = count_cells(region.polygon, grid)
     return replace(region, free_cells=free, total_cells=total)

@@ -19,9 +19,9 @@ from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
-from floorplan_core.layout import Layout, lay_out
-from floorplan_core.layout_islands import add_islands, site_points
-from floorplan_core.layout_wings import add_wings
+from floorplan_core.layout import lay_out
+from floorplan_core.layout_islands import site_points
+from floorplan_core.layout_parts import add_parts, said_of_first
 from floorplan_core.memory import fits, require_memory
 from floorplan_core.model import (
     Door,
@@ -34,14 +34,13 @@ from floorplan_core.model import (
     RectangleCover,
     Region,
     Trajectory,
-    Wing,
 )
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
-from floorplan_core.stages.corrections import Remarks, Said, in_plan, said_of_part
+from floorplan_core.stages.corrections import Remarks, in_plan
 from floorplan_core.stages.corrections_doors import lost_doors
 from floorplan_core.stages.corrections_regions import correct_names
 from floorplan_core.stages.islands import Island, find_islands, is_wide
@@ -143,10 +142,12 @@ class FloorPlanner:
             raise InputError("These stages were kept by another version; run again with --save-stages.")
         say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
         if parts:
-            own = said_of_part(say, 0, [part.turn for part in parts])
+            own = said_of_first(say, parts)
             main = lay_out(parts[0].evidence, config, stage, self.observer, own, parts[0].cells)
             made, wings = stage.correct(
-                "wings", lambda: self._with_others(main, parts, say), main, parts, config, say
+                "wings",
+                lambda: add_parts(main, parts, config, stage, self.observer, say, evidence),
+                *(main, parts, config, say, evidence),
             )
         else:
             made, wings = lay_out(evidence, config, stage, self.observer, say), ()
@@ -215,14 +216,6 @@ class FloorPlanner:
             raise UsageError(f"There is no storey {storey} in {self.source or 'the survey'}: {known}.")
         level = storeys[storey]
         return replace(frame, floor_z=level.floor_z, ceiling_z=level.ceiling_z)
-
-    def _with_others(
-        self, main: Layout, parts: tuple[Part, ...], say: Said
-    ) -> tuple[Layout, tuple[Wing, ...]]:
-        """The layout of the first part with those of the others: wings, or buildings that stand apart."""
-        if parts[0].apart:
-            return add_islands(main, parts, self.config, self.observer)
-        return add_wings(main, parts, self.config, self.observer, say)
 
     def _surfels_of(self, storey: int, own: ManhattanFrame) -> tuple[SurfelMap, Float]:
         """Surfels and sensor positions of one storey."""

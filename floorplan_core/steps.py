@@ -32,6 +32,11 @@ class StepMemory:
 
     def __init__(self) -> None:
         self._kept: dict[str, tuple[tuple[object, ...], object]] = {}
+        self._parts: dict[str, StepMemory] = {}
+
+    def part(self, name: str) -> StepMemory:
+        """The memory of a part of the building that is laid out by itself."""
+        return self._parts.setdefault(name, StepMemory())
 
     def find(self, step: str, made_of: tuple[object, ...]) -> tuple[object] | None:
         """The result of ``step`` in a tuple; None where it was not made of these things."""
@@ -66,6 +71,10 @@ class StageRunner:
         self._given = iter(given)
         self._memory = memory
         self._count: dict[str, int] = {}
+
+    def part(self, name: str, observer: Observer) -> StageRunner:
+        """The runner of a part that is laid out by itself: it remembers its own steps."""
+        return StageRunner(observer, memory=None if self._memory is None else self._memory.part(name))
 
     def __call__(self, name: str, work: Callable[[], T], *made_of: object) -> T:
         """The result of ``work``, the next step of stage ``name``: given, remembered, or made now."""

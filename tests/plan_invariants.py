@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 
 import numpy as np
 import shapely
@@ -11,23 +12,30 @@ import shapely.geometry
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.geometry.raster import polygon_mask
 from floorplan_core.model import FREE, FloorPlan, LayoutPlane, Region
+from floorplan_core.model.layout import turned
 
 INSIDE = 0.25  # m from a region's sides, from which something lies in its interior (thickness, tolerance)
 SHORTEST = 0.3  # m: what is left of a wall after that; shorter pieces are noise
+STEP = 1e-5  # m that a side of a building of right angles may be off
+JOINT = 0.03  # m that it may be where a region is cut at walls of another angle: steps become their line
 STANDING = 0.35  # of the height below 2 m: less is a lintel's lower end, a skirting, noise
 
 
 def assert_valid(plan: FloorPlan) -> None:
     """Every invariant of a plan; the message names the one that broke."""
-    assert_coverage(plan.regions)
+    assert_coverage(plan.regions, {0.0, *(wing.turn for wing in plan.wings)})
     assert_exported_coverage(plan)
     assert_no_wall_inside(plan)
     assert_doors(plan)
     assert_flags(plan)
 
 
-def assert_coverage(regions: tuple[Region, ...]) -> None:
-    """Valid, rectilinear, disjoint polygons with unique names."""
+def assert_coverage(regions: tuple[Region, ...], turns: Collection[float] = (0.0,)) -> None:
+    """Valid, disjoint polygons with unique names, whose sides lie along the axes of a part of the building.
+
+    :param turns: radians from the plan's axes to those of each part.
+    """
+    exact = STEP if len(turns) == 1 else JOINT
     polygons = np.array([r.polygon for r in regions])
     assert shapely.is_valid(polygons).all()
     assert len({r.id for r in regions}) == len({r.name for r in regions}) == len(regions)
@@ -38,8 +46,9 @@ def assert_coverage(regions: tuple[Region, ...]) -> None:
         assert region.polygon.geom_type == "Polygon"
         assert region.polygon.exterior.is_ccw
         for ring in (region.polygon.exterior, *region.polygon.interiors):
-            steps = np.abs(np.diff(np.asarray(ring.coords), axis=0))
-            assert (steps.min(axis=1) < 1e-5).all(), "a slanted side"
+            steps = np.diff(np.asarray(ring.coords), axis=0)
+            slant = np.min([np.abs(turned(steps, -turn)).min(axis=1) for turn in turns], axis=0)
+            assert (slant < exact).all(), f"a slanted side of {region.name}: {slant.max():.3f} m"
 
 
 def assert_exported_coverage(plan: FloorPlan) -> None:
@@ -57,7 +66,7 @@ def _walls(plan: FloorPlan) -> list[tuple[LayoutPlane, shapely.LineString]]:
     Where a person said otherwise, only what is left of the walls.
     """
     out = []
-    for plane in plan.planes:
+    for plane in plan.all_planes:
         out += [(plane, _line(plane, a, b)) for a, b in plane.walls if plane.by_hand == "added"]
         if plane.profile is None or plane.support < plan.config.planes.min_support:
             continue
@@ -72,8 +81,7 @@ def _walls(plan: FloorPlan) -> list[tuple[LayoutPlane, shapely.LineString]]:
 
 
 def _line(plane: LayoutPlane, start: float, end: float) -> shapely.LineString:
-    ends = [(plane.offset, start), (plane.offset, end)]
-    return shapely.LineString([e[:: 1 - 2 * plane.facing.axis] for e in ends])
+    return shapely.LineString([plane.point(start), plane.point(end)])
 
 
 def assert_no_wall_inside(plan: FloorPlan) -> None:

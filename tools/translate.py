@@ -35,8 +35,12 @@ TABLES = {  # module-level tables whose strings are shown: all of them, or the v
     "SUBMENUS", "hint", "area_hint", "plane_hint", "door_hint", "nowhere", "empty",  # of tools and plan panes
 }  # fmt: skip
 CORE = (  # modules of the core whose sentences reach the window as warnings or assumptions
+    "layout_islands.py",
+    "layout_wings.py",
+    "pipeline.py",
     "readers/axes.py",
     "stages/corrections_doors.py",
+    "stages/corrections_islands.py",
     "stages/corrections_regions.py",
     "stages/corrections_walls.py",
     "stages/exact_cover.py",
@@ -54,6 +58,8 @@ EXTRA = (  # words of the core that lists show
     "Corridor {0}",
     "floor to ceiling is then {0} m", "the height is then {0} m",
     "name {0}", "label {0}", "wall at {0}", "{0}, {1} wide, {2} sure",  # what the machine had said
+    "{0} buildings stand apart from each other: each is planned by itself, in one frame.",
+    "{0} m2 of free space are in no region: no rectangle of walls encloses them.",
     "the points are flat, so only their extent could tell",
 )  # fmt: skip
 

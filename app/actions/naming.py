@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -33,14 +34,15 @@ from floorplan_core.model.corrections import (
     SplitRegion,
 )
 from floorplan_core.model.layout import turned
-from floorplan_core.stages.corrections import REACH, in_plan, part_of, shifted, turned_back
+from floorplan_core.stages.corrections import REACH, in_plan, line_of, part_of, shifted, turned_back
 from floorplan_core.stages.corrections_doors import find_door
-from floorplan_core.stages.corrections_walls import facing_of, find_plane
+from floorplan_core.stages.corrections_walls import ADDED, facing_of, find_plane
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
 
 _SAME = 1e-3  # m, between where a wall lies and where it was moved to
+_DRAWN = re.compile(rf"(w\d+)?{ADDED}\d+[ab]")  # ids of the faces of walls added by hand
 _SPLIT = 0.05  # m, from the boundary of a region to the line that made it
 WORDS = {"plane": "wall", "door": "door", "region": "region", "check": "check"}
 
@@ -142,7 +144,7 @@ def about(workbench: Workbench, item: Item) -> frozenset[int]:
     plain = replace(found, turn=0.0)
     if isinstance(plain, Door):
         return frozenset(_of_door(own, plain))
-    return frozenset(_of_plane(own, plain, [k for k, c in own if isinstance(c, AddWall)], mine))
+    return frozenset(_of_plane(own, plain))
 
 
 def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
@@ -151,10 +153,8 @@ def _in_plan(correction: Correction, workbench: Workbench) -> Correction:
     return (*said.walls, *said.doors, *said.shapes, *said.names)[0]
 
 
-def _of_plane(said: Said, plane: LayoutPlane, added: Sequence[int], part: int) -> list[int]:
+def _of_plane(said: Said, plane: LayoutPlane) -> list[int]:
     """Backwards, as a wall may have been moved several times; in the axes of the wall's own part."""
-    from floorplan_core.stages.wing_joins import named  # it needs numba: not before the window
-
     out, axis = [], plane.facing.axis
     for k, c in reversed(said):
         if isinstance(c, MovePlane) and facing_of(c.plane.normal) == plane.facing:
@@ -163,10 +163,18 @@ def _of_plane(said: Said, plane: LayoutPlane, added: Sequence[int], part: int) -
                 plane = replace(plane, offset=c.plane.at[axis])
         elif isinstance(c, HidePlane | KeepPlane):
             out += [k] if _is_at(c.plane, plane) else []
-        elif isinstance(c, AddWall) and plane.by_hand:
-            number = 1 + added.index(k)
-            out += [k] if plane.id in (named(f"hw{number}{side}", part) for side in "ab") else []
+        elif isinstance(c, AddWall) and _DRAWN.fullmatch(plane.id):
+            out += [k] if _is_face_of(plane, c) else []
     return out
+
+
+def _is_face_of(plane: LayoutPlane, wall: AddWall) -> bool:
+    """True where a plane drawn by hand is a face of that wall, or of another at the very same place."""
+    axis, offset, (low, high) = line_of(wall.start, wall.end)
+    face = offset + 0.5 * plane.facing.sign * wall.thickness
+    if plane.facing.axis != axis or abs(plane.offset - face) >= _SAME:
+        return False
+    return len(plane.walls) == 0 or bool(plane.walls.min() < high and plane.walls.max() > low)
 
 
 def _beside(at: PlaneAt, plane: LayoutPlane) -> PlaneAt:

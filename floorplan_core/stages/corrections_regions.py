@@ -31,6 +31,7 @@ from floorplan_core.stages.region_names import ID_PREFIX, next_number
 from floorplan_core.stages.region_sides import WallSurfaces
 from floorplan_core.stages.regions import make_region
 
+SHAPED = {"merged", "split"}  # words of a region whose shape is a person's
 _THICKEST = 0.6  # m of wall between two regions that are merged
 _SLIT = 0.02  # m: a narrower hole in a merged region is the jitter of its sides
 _GRID = 1e-6  # m, to which coordinates are rounded after an overlay
@@ -88,11 +89,16 @@ def find_region(regions: Sequence[Region], at: Point) -> Region | None:
 
 
 def merge(
-    regions: Regions, correction: MergeRegions, remake: Remake, close: Close = close_polygon
+    regions: Regions,
+    correction: MergeRegions,
+    remake: Remake,
+    close: Close = close_polygon,
+    tidy: Close = without_slits,
 ) -> tuple[Regions, Any | None, Remarks]:
     """The regions with some made one, and the polygon of that one.
 
     :param close: fills the gaps between polygons that are narrower than so many metres.
+    :param tidy: the merged one without holes narrower than so many metres.
     """
     found = [find_region(regions, at) for at in correction.at]
     if None in found:
@@ -102,7 +108,8 @@ def merge(
     if len(chosen) < 2:
         return regions, None, NOTHING  # they are one already
     parts = [r for r in regions if r.id in chosen]
-    whole = _union([r.polygon for r in parts], [r.polygon for r in regions if r.id not in chosen], close)
+    others = [r.polygon for r in regions if r.id not in chosen]
+    whole = _union([r.polygon for r in parts], others, close, tidy)
     if whole is None:
         names = " and ".join(r.name for r in parts)
         return regions, None, Remarks(warnings=(f"Regions {names} do not touch: they cannot be merged.",))
@@ -117,15 +124,22 @@ def _with(word: str, *regions: Region) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*(w for r in regions for w in r.by_hand), word)))
 
 
-def _union(parts: Sequence[Any], others: Sequence[Any], close: Close) -> Any | None:
+def _union(parts: Sequence[Any], others: Sequence[Any], close: Close, tidy: Close) -> Any | None:
     """One polygon of the parts and the wall between them; None where they do not touch."""
     inside = shapely.union_all([close(p, _THICKEST) for p in parts])
     between = close(shapely.union_all(parts), _THICKEST).difference(
         shapely.union_all([inside, *others], grid_size=_GRID), grid_size=_GRID
     )
     joints = [g for g in polygons_of(between) if sum(g.distance(p) < _TOUCH for p in parts) > 1]
-    whole = without_slits(shapely.union_all([*parts, *joints], grid_size=_GRID), _SLIT)
+    whole = tidy(shapely.union_all([*parts, *joints], grid_size=_GRID), _SLIT)
+    taken = [o for o in others if o.intersection(whole).area > _GRID]  # a slit may have been another's edge
+    if taken:
+        whole = max(polygons_of(whole.difference(shapely.union_all(taken), grid_size=_GRID)), key=_area)
     return whole if whole.geom_type == "Polygon" else None
+
+
+def _area(shape: Any) -> float:
+    return float(shape.area)
 
 
 def opened(planes: Planes, merged: Any) -> Planes:

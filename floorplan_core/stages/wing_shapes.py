@@ -2,7 +2,7 @@
 
 In: the joined regions and what a person said, in the axes of the plan. Out: regions that are still disjoint,
 and the merged polygons, in which no wall parts anything any more. A line that is drawn follows the axes of
-the part that it is nearest to. Heights are those of the regions before; sides are found along their lines.
+the part that it is nearest to. Heights stay as they were; sides are found along their lines.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from floorplan_core.stages.corrections_regions import merge, split
 from floorplan_core.stages.regions import count_cells, region_of
 from floorplan_core.stages.wing_joins import sides_between
 
+_EXACT = 1e-6  # m, to which corners are rounded
 _SHARED = 1e-4  # m2 that a polygon has in common with a region whose sides it takes over
 
 Regions = tuple[Region, ...]
@@ -48,7 +49,7 @@ def correct_joined_shapes(
             return _remade(polygon, region, before, walls, grid)
 
         if isinstance(correction, MergeRegions):
-            regions, whole, remarks = merge(regions, correction, remake, _closed)
+            regions, whole, remarks = merge(regions, correction, remake, _closed, _closed)
             merged += [] if whole is None else [whole]
         else:
             assert isinstance(correction, SplitRegion)
@@ -61,7 +62,7 @@ def correct_joined_shapes(
 def _closed(shape: Any, width: float) -> Any:
     """Gaps filled that are narrower than ``width``, at any angle."""
     grown = shape.buffer(width / 2, join_style="mitre")
-    return grown.buffer(-width / 2, join_style="mitre")
+    return shapely.set_precision(grown.buffer(-width / 2, join_style="mitre"), _EXACT)
 
 
 def _remade(polygon: Any, region: Region, before: Regions, walls: Any, grid: OccupancyGrid) -> Region:

@@ -123,6 +123,10 @@
    <translation>Ein Ort sind zwei Zahlen in Metern wie (1.5, 2.0); gegeben war {0}.</translation>
   </message>
   <message>
+   <source>A planar scan: walls and furniture alike are taken to reach from floor to ceiling.</source>
+   <translation>Ein ebener Scan: Wände wie Möbel gelten als raumhoch.</translation>
+  </message>
+  <message>
    <source>A shut leaf closes it</source>
    <translation>Ein geschlossenes Türblatt füllt sie</translation>
   </message>
@@ -145,6 +149,10 @@
   <message>
    <source>A wider lintel between two walls that go on beyond it is a beam, and separates nothing.</source>
    <translation>Ein breiterer Sturz zwischen zwei Wänden, die dahinter weitergehen, ist ein Unterzug und trennt nichts.</translation>
+  </message>
+  <message>
+   <source>A wing of {0} m2 stands at {1} degrees to the rest: it is planned in a frame of its own.</source>
+   <translation>Ein Flügel von {0} m² steht um {1} Grad gedreht zum Rest: Er wird in einem eigenen Achsenkreuz geplant.</translation>
   </message>
   <message>
    <source>A3 at 300 dpi</source>
@@ -1483,6 +1491,10 @@
    <translation>Noch kein Plan.</translation>
   </message>
   <message>
+   <source>No region came out: the free space seen is not enclosed by any pair of walls; scan more walls, or raise candidates.max_ratio.</source>
+   <translation>Keine Region kam heraus: Kein Paar von Wänden schließt den gesehenen freien Raum ein; mehr Wände scannen oder candidates.max_ratio erhöhen.</translation>
+  </message>
+  <message>
    <source>No setting is called that.</source>
    <translation>So heißt keine Einstellung.</translation>
   </message>
@@ -2659,6 +2671,10 @@
    <translation>Die mit anderen vereinte Region bei {0} gibt es nicht mehr.</translation>
   </message>
   <message>
+   <source>The regions at {0} stand in different buildings: they cannot be merged.</source>
+   <translation>Die Regionen bei {0} stehen in verschiedenen Gebäuden: Sie lassen sich nicht vereinen.</translation>
+  </message>
+  <message>
    <source>The regions on its two sides</source>
    <translation>Die Regionen auf ihren beiden Seiten</translation>
   </message>
@@ -2775,6 +2791,10 @@
    <translation>Es gibt keinen Schritt {0}: Der Verlauf hat die Schritte 0 bis {1}.</translation>
   </message>
   <message>
+   <source>There is no storey {0} in {1}: {2}.</source>
+   <translation>Es gibt kein Geschoss {0} in {1}: {2}.</translation>
+  </message>
+  <message>
    <source>There is no storey {0}; the survey has storeys 0 to {1}.</source>
    <translation>Es gibt kein Geschoss {0}; die Aufnahme hat die Geschosse 0 bis {1}.</translation>
   </message>
@@ -2789,6 +2809,10 @@
   <message>
    <source>There is no {0} {1}.</source>
    <translation>Es gibt kein {0} {1}.</translation>
+  </message>
+  <message>
+   <source>These stages were kept by another version; run again with --save-stages.</source>
+   <translation>Diese Stufen hat eine andere Version aufgehoben; noch einmal mit --save-stages starten.</translation>
   </message>
   <message>
    <source>Thickness between its two faces</source>
@@ -2833,6 +2857,10 @@
   <message>
    <source>Tolerance</source>
    <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>Too little to make a plan of: {0} points in {1} voxels of {2} m; check the unit (--set input.unit=...) or give more scans.</source>
+   <translation>Zu wenig für einen Plan: {0} Punkte in {1} Voxeln von {2} m; Einheit prüfen (--set input.unit=...) oder mehr Scans geben.</translation>
   </message>
   <message>
    <source>Toolbar</source>
@@ -3411,6 +3439,10 @@
    <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
   </message>
   <message>
+   <source>{0} buildings stand apart from each other: each is planned by itself, in one frame.</source>
+   <translation>{0} Gebäude stehen auseinander: Jedes wird für sich geplant, in einem Achsenkreuz.</translation>
+  </message>
+  <message>
    <source>{0} doors</source>
    <translation>{0} Türen</translation>
   </message>
@@ -3445,6 +3477,10 @@
   <message>
    <source>{0} is one of {1}, not {2}.</source>
    <translation>{0} ist eins von {1}, nicht {2}.</translation>
+  </message>
+  <message>
+   <source>{0} m2 of free space are in no region: no rectangle of walls encloses them.</source>
+   <translation>{0} m² freier Raum liegen in keiner Region: Kein Rechteck von Wänden schließt sie ein.</translation>
   </message>
   <message>
    <source>{0} needs a window.</source>

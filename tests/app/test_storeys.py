@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
+from pathlib import Path
+
 import pytest
 
 from floorcast_app.state import Check, DocumentState, StoreyEdits
@@ -10,31 +11,13 @@ from floorcast_app.workbench import Workbench
 from floorplan_core.errors import UsageError
 from floorplan_core.model.corrections import NameRegion
 from tests.app.pump import make_workbench, settle
-from tests.box_world import room, stations, survey
-
-SIZES = ((4.0, 5.0), (6.0, 3.0))  # metres of the rooms above each other
-STOREY = 3.2  # metres from floor to floor
+from tests.app.surveys import write_storeys
 
 
 @pytest.fixture(scope="module")
-def stack(tmp_path_factory: pytest.TempPathFactory) -> object:
-    """A folder with a survey of two storeys: points with their scans, and a trajectory."""
-    folder = tmp_path_factory.mktemp("stack")
-    rows, poses = [], []
-    for level, size in enumerate(SIZES):
-        scan = survey(room(*size), stations(*size), rays=(160, 50))
-        points = scan.points + np.array([0.0, 0.0, level * STOREY])
-        rows.append(np.column_stack([points, scan.scan_id + len(poses)]))
-        for pose in scan.poses:
-            poses.append(pose[:3, 3] + np.array([0.0, 0.0, level * STOREY]))
-    table = np.concatenate(rows)
-    head = ("ply", "format ascii 1.0", f"element vertex {len(table)}")
-    names = ("float x", "float y", "float z", "int scan_id")
-    header = "\n".join([*head, *(f"property {name}" for name in names), "end_header"])
-    np.savetxt(folder / "points.ply", table, "%.4f %.4f %.4f %d", header=header, comments="")
-    lines = [f"{k} {x:.4f} {y:.4f} {z:.4f} 0 0 0 1" for k, (x, y, z) in enumerate(poses)]
-    (folder / "trajectory.tum").write_text("\n".join(lines) + "\n")
-    return folder
+def stack(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a survey of two storeys."""
+    return write_storeys(tmp_path_factory.mktemp("stack"))
 
 
 @pytest.fixture
