@@ -44,9 +44,17 @@ from floorplan_core.api import (
 Float = NDArray[np.float64]
 SAMPLE_IMAGES = 24
 PAIRS, PAIR_PIXELS = 12, 4000  # images and pixels that decide how the poses are meant
-SCALES = (1000.0, 5000.0, 6553.5)  # depth units in a metre: millimetres, TUM, Replica
+SCALES = (1000.0, 4000.0, 5000.0, 6553.5)  # depth units in a metre: millimetres, L515, TUM, Replica
 CLEARLY = 0.6  # another reading than the usual one must fit by so much better
 AGREE = 0.05  # share of the depth within which two images see one surface
+APART = (
+    3,
+    1,
+)  # images between the two of a pair: one where a walk turns so fast that three show nothing twice
+CHECKED = 0.5  # share of what one image shows that must be where another shows it
+
+
+Pair = tuple[Frame, Frame, Any, Any]  # two images and the depth in each
 
 
 @dataclass(frozen=True)
@@ -110,32 +118,40 @@ class RgbdReader:
 def find_reading(folder: RgbdFolder, observer: Observer) -> tuple[Reading, str]:
     """Direction of the poses and scale of the depth under which images agree; the usual one if in doubt."""
     usual = Reading(folder.scale, folder.kind == "Redwood" and _is_extrinsic(folder))
-    pairs = list(_pairs(folder, observer))
-    scales = dict.fromkeys((folder.scale, *SCALES))
-    readings = [usual, *(Reading(s, i) for s in scales for i in (usual.inverted, not usual.inverted))]
-    misfits = {
-        r: float(np.median([misfit(*pair, folder.camera, r) for pair in pairs] or [1.0])) for r in readings
-    }
-    best = min(readings, key=lambda r: misfits[r])
+    for apart in APART:
+        misfits = _misfits(folder, usual, list(_pairs(folder, apart, observer)))
+        best = min(misfits, key=lambda r: misfits[r])
+        if misfits[best] <= 1 - CHECKED:
+            break
     best = best if misfits[best] < CLEARLY * misfits[usual] else usual
     words = "world-to-camera" if best.inverted else "camera-to-world"
-    return best, (
-        f"Poses are taken as {words} and {best.scale:g} depth units as a metre: "
-        f"so {1 - misfits[best]:.0%} of what one image shows is where another shows it."
-    )
+    meant = f"Poses are taken as {words} and {best.scale:g} depth units as a metre"
+    if misfits[best] == 1:
+        return (
+            best,
+            f"{meant}, as is usual: no images show so much of the same surfaces that it can be checked.",
+        )
+    return best, f"{meant}: so {1 - misfits[best]:.0%} of what one image shows is where another shows it."
+
+
+def _misfits(folder: RgbdFolder, usual: Reading, pairs: list[Pair]) -> dict[Reading, float]:
+    """The median :func:`misfit` of the pairs under every reading, the usual one first."""
+    scales = dict.fromkeys((folder.scale, *SCALES))
+    readings = [usual, *(Reading(s, i) for s in scales for i in (usual.inverted, not usual.inverted))]
+    return {r: float(np.median([misfit(*p, folder.camera, r) for p in pairs] or [1.0])) for r in readings}
 
 
 def _is_extrinsic(folder: RgbdFolder) -> bool:
     return "trajectory.json" in folder.note  # Open3D's own form holds extrinsics
 
 
-def _pairs(folder: RgbdFolder, observer: Observer) -> Iterator[tuple[Frame, Frame, Any, Any]]:
+def _pairs(folder: RgbdFolder, apart: int, observer: Observer) -> Iterator[Pair]:
     """Pairs of images that are some centimetres and degrees apart, spread over the run."""
     frames = moving_frames(folder.frames, Reading(folder.scale, False))
     step = max(1, (len(frames) - 1) // PAIRS)
-    for k in range(0, len(frames) - 3, step):
+    for k in range(0, len(frames) - apart, step):
         observer.check_cancelled()
-        a, b = frames[k], frames[k + 3]
+        a, b = frames[k], frames[k + apart]
         yield a, b, read_depth(a.path), read_depth(b.path)
 
 

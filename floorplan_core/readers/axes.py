@@ -1,8 +1,9 @@
 """Which axis of a file is up, and in which unit it counts: guessed from a sample, stated, never silent.
 
 Up is the axis along which points lie in two flat outer layers (floor and ceiling), along which the building
-is low, and along which the sensor's path stays level. The unit is the one that makes storey height, extent
-and sensor height those of a building. Every term is bounded, so that no single oddity decides.
+is low, and along which the sensor's path stays level; the points of a single surface do not tell. The unit is
+the one that makes storey height, extent and sensor height those of a building. Every term is bounded, so that
+no single oddity decides.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ LEVEL_WEIGHT = 2.0  # of ln(path's spread along the others / along the axis)
 UPRIGHT_WEIGHT = 3.0  # of the sensor's own vertical, where only one of its axes stays constant
 LEVEL_FLOOR = 0.02  # a path is never more level than this share of its length
 MIN_PATH = 0.03  # of the cloud's extent: a shorter path says nothing about level
+FLAT = 0.02  # of the second spread: a cloud no thicker, densest in its middle, is one wall, floor or scan
 STOREY_SHARE = 0.5  # of the strongest layer: floors and ceilings are alike, table tops are weaker
 UPRIGHT_DECIDES = 0.7  # cosine from which the sensor's vertical says which end is up
 CLUTTER_FROM, CLUTTER_TO = 0.08, 0.35  # shares of the height: above floor and skirting, below table tops
@@ -82,8 +84,10 @@ def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None)
     if extents.max() <= 0:
         return "z"
     extents = np.maximum(extents, 1e-3 * extents.max())
-    scores = np.array([LAYER_WEIGHT * layer.strength for layer in layers])
-    scores += LOW_WEIGHT * _log_ratio_to_others(extents)
+    scores = np.zeros(3)
+    if not _is_one_surface(points, layers):  # a wall is as flat and as low as a floor
+        scores += LAYER_WEIGHT * np.array([layer.strength for layer in layers])
+        scores += LOW_WEIGHT * _log_ratio_to_others(extents)
     scores += _level_scores(trajectory, float(extents.max()))
     upright = _upright(trajectory)
     scores += UPRIGHT_WEIGHT * np.abs(upright)
@@ -94,6 +98,22 @@ def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None)
         heights = None if trajectory is None else trajectory.origins[:, axis]
         down = _is_upside_down(points[:, axis], layers[axis], heights, UPSIDE_DOWN["xyz"[axis]])
     return ("-" if down else "") + "xyz"[axis]
+
+
+def _is_one_surface(points: Float, layers: list[Layers]) -> bool:
+    """Does the cloud lie in one plane of any direction, so that its shape cannot tell what is up?"""
+    low, high = (np.array([getattr(layer, end) for layer in layers]) for end in ("low", "high"))
+    inner = points[((points >= low) & (points <= high)).all(axis=1)]
+    if len(inner) < 3:
+        return False
+    variances, axes = np.linalg.eigh(np.cov(inner.T))
+    if variances[0] > FLAT**2 * variances[1]:
+        return False
+    across = inner @ axes[:, 0]
+    quarter = np.ptp(across) / 4
+    return bool(
+        np.mean(np.abs(across - across.min() - 2 * quarter) <= quarter) >= 0.5
+    )  # no floor and ceiling
 
 
 def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str) -> str:

@@ -41,23 +41,24 @@ def write_e57(path, parts, shift=(0.0, 0.0, 0.0), posed=True):
     return path
 
 
-def write_spherical(path, points, invalid=None):
-    """A scan of ranges and angles as scaled integers and doubles."""
+def spherical(points, invalid=None):
+    """The fields of a scan of ranges and angles as scaled integers and doubles."""
     r = np.linalg.norm(points, axis=1)
     good = (np.zeros(len(points)) if invalid is None else invalid).astype("i1")
     x, y, z = points.T
-    return write_fields(
-        path,
-        {
-            "sphericalRange": (
-                lambda f: libe57.ScaledIntegerNode(f, 0, 0, 10**6, 1e-4, 0.0),
-                np.round(r / 1e-4) * 1e-4,
-            ),
-            "sphericalAzimuth": (lambda f: libe57.FloatNode(f, 0.0), np.arctan2(y, x)),
-            "sphericalElevation": (lambda f: libe57.FloatNode(f, 0.0), np.arcsin(z / r)),
-            "sphericalInvalidState": (lambda f: libe57.IntegerNode(f, 0, 0, 2), good),
-        },
-    )
+    return {
+        "sphericalRange": (
+            lambda f: libe57.ScaledIntegerNode(f, 0, 0, 10**6, 1e-4, 0.0),
+            np.round(r / 1e-4) * 1e-4,
+        ),
+        "sphericalAzimuth": (lambda f: libe57.FloatNode(f, 0.0), np.arctan2(y, x)),
+        "sphericalElevation": (lambda f: libe57.FloatNode(f, 0.0), np.arcsin(z / r)),
+        "sphericalInvalidState": (lambda f: libe57.IntegerNode(f, 0, 0, 2), good),
+    }
+
+
+def write_spherical(path, points, invalid=None):
+    return write_fields(path, spherical(points, invalid))
 
 
 @pytest.fixture

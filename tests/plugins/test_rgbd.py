@@ -25,16 +25,26 @@ def camera_poses():
     a = np.linspace(0, 1.6 * np.pi, COUNT)
     T = np.tile(np.eye(4), (COUNT, 1, 1))
     for k, angle in enumerate(a):
-        level = Rotation.from_matrix([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])  # z ahead along x, y down
-        T[k, :3, :3] = (Rotation.from_euler("z", angle) * level * Rotation.from_euler("x", 0.1)).as_matrix()
+        T[k, :3, :3] = looking(angle, 0.1)
         T[k, :3, 3] = 4.0 + 1.5 * np.cos(angle + 2), 2.5 + 1.0 * np.sin(angle + 2), 1.4
     return T
 
 
+def looking(yaw, pitch):
+    """(3, 3) camera to world of a camera that looks along ``yaw``, up by ``pitch``, radians."""
+    level = Rotation.from_matrix([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])  # z ahead along x, y down
+    return (Rotation.from_euler("z", yaw) * level * Rotation.from_euler("x", pitch)).as_matrix()
+
+
+def pixel_rays():
+    """(HEIGHT, WIDTH, 3) to where each pixel looks, one metre ahead of the camera."""
+    v, u = np.mgrid[:HEIGHT, :WIDTH]
+    return np.stack([(u - CX) / F, (v - CY) / F, np.ones_like(u, dtype=float)], axis=-1)
+
+
 def render(T):
     """(HEIGHT, WIDTH) metres along the camera's axis to the walls of the room."""
-    v, u = np.mgrid[:HEIGHT, :WIDTH]
-    rays = np.stack([(u - CX) / F, (v - CY) / F, np.ones_like(u, dtype=float)], axis=-1) @ T[:3, :3].T
+    rays = pixel_rays() @ T[:3, :3].T
     rays = np.where(np.abs(rays) < 1e-9, 1e-9, rays)
     return np.min(np.where(rays > 0, SIZE - T[:3, 3], -T[:3, 3]) / rays, axis=-1)
 
@@ -124,7 +134,7 @@ def off_walls(points):
 
 @pytest.mark.parametrize("write", WRITERS)
 @pytest.mark.parametrize("inverted", [False, True])
-@pytest.mark.parametrize("scale", [1000.0, 5000.0])
+@pytest.mark.parametrize("scale", [1000.0, 4000.0, 5000.0])
 def test_the_room_comes_back(tmp_path, write, inverted, scale):
     root = tmp_path / "run"
     root.mkdir()
@@ -135,6 +145,23 @@ def test_the_room_comes_back(tmp_path, write, inverted, scale):
     assert ids.max() == COUNT - 1
     words = "world-to-camera" if inverted else "camera-to-world"
     assert any(words in text and f"{scale:g} depth units" in text for text in survey.assumptions)
+
+
+def test_images_that_turn_fast(tmp_path, monkeypatch):
+    """Every third image shows nothing of the one before: neighbours are compared, or that is said."""
+    import sys
+
+    module = sys.modules[__name__]
+    poses = camera_poses()[::2]
+    monkeypatch.setattr(module, "camera_poses", lambda: poses)
+    monkeypatch.setattr(module, "COUNT", len(poses))
+    survey = opened(write_scannet(tmp_path / "run", inverted=True))
+    assert off_walls(whole(survey)[0]) < 0.01
+    assert any("world-to-camera and 1000 depth units as a metre: so " in s for s in survey.assumptions)
+    poses = camera_poses()[::8]
+    monkeypatch.setattr(module, "COUNT", len(poses))
+    survey = opened(write_scannet(tmp_path / "sparse"))
+    assert any("as is usual: no images show" in text for text in survey.assumptions)
 
 
 def test_up_is_found(tmp_path):

@@ -192,3 +192,25 @@ def test_poses_that_disagree_on_the_hand_are_damaged(tmp_path):
 )
 def test_yes_and_true_are_the_same_word(said, meant):
     assert Config().with_values({"input.mirrored": said}).input.mirrored == meant
+
+
+@pytest.mark.parametrize("yaw", [0.0, 2.0, 35.0, 90.0])
+def test_a_single_wall_stands(yaw):
+    """Flat and low across itself as a floor is: only what is usual can tell."""
+    rng = np.random.default_rng(1)
+    wall = np.column_stack(
+        [rng.uniform(0, 7, 40_000), rng.normal(0, 0.01, 40_000), rng.uniform(0, 2.6, 40_000)]
+    )
+    c, s = np.cos(np.radians(yaw)), np.sin(np.radians(yaw))
+    guess = guess_axes(wall @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), None, "auto", "auto")
+    assert (guess.up, guess.unit) == ("z", "m")
+
+
+def test_a_planar_scan_of_a_level_path_lies():
+    """y up, as cameras and graphics programs have it: the path tells, where the points cannot."""
+    angle = np.linspace(0, 2 * np.pi, 5000)
+    scan = np.column_stack([4 * np.cos(angle), np.zeros(5000), 3 * np.sin(angle)])
+    poses = np.tile(np.eye(4), (50, 1, 1))
+    poses[:, 0, 3] = np.linspace(-2, 2, 50)
+    poses[:, 2, 3] = 1.5 * np.sin(np.linspace(0, 6, 50))
+    assert guess_axes(scan, Trajectory(np.arange(50.0), poses), "m", "auto").up in ("y", "-y")
