@@ -27,7 +27,7 @@ class Surfaces:
     """What was seen of the walls, as the tables of :mod:`~floorplan_core.stages.side_measures`."""
 
     names: list[str]  # of the planes, in order; the tables have their numbers
-    seen: Float  # (K, 5) offset, start, end, residual, plane; by facing, then offset
+    seen: Float  # (K, 6) offset, start, end, residual, plane, mean height seen; by facing, then offset
     first: NDArray[np.int64]  # (5,) where the rows of each facing begin
     placed: Float  # (H, 5) facing, offset, start, end, plane of the walls moved or added by hand
     panes: Float  # (P, 4) facing, offset, start, end of what was seen in recesses
@@ -44,13 +44,13 @@ def _tabulate(planes: Sequence[LayoutPlane], segments: Sequence[LayoutSegment]) 
     )
     names = sorted({s.plane for s in walls} | {p.id for p in by_hand})
     number = {name: k for k, name in enumerate(names)}
-    seen = [(s.offset, s.start, s.end, s.residual, number[s.plane]) for s in walls]
+    seen = [(s.offset, s.start, s.end, s.residual, number[s.plane], s.area / s.length) for s in walls]
     placed = [(p.facing, p.offset, s, e, number[p.id]) for p in by_hand for s, e in p.walls]
     panes = [(s.facing, s.offset, s.start, s.end) for s in segments if s.plane in recesses]
     low = sorted((s.facing, s.offset, s.start, s.end) for s in segments if s.evidence == (LOW,))
     return Surfaces(
         names,
-        np.array(seen, dtype=np.float64).reshape(-1, 5),
+        np.array(seen, dtype=np.float64).reshape(-1, 6),
         np.searchsorted([s.facing for s in walls], np.arange(len(Facing) + 1)),
         np.array(placed, dtype=np.float64).reshape(-1, 5),
         np.array(panes, dtype=np.float64).reshape(-1, 4),

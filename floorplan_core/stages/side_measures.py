@@ -24,41 +24,42 @@ _NO_LENGTH = 1e-9  # m, against division by nothing
 
 @njit(cache=True, nogil=True)
 def side_targets(points, seen, first, placed, thickness):  # type: ignore[no-untyped-def]
-    """(N,) where each side of a ring belongs: the median by length of the surfaces seen along it.
+    """(N,) where each side of a ring belongs: the median of the surfaces seen along it, by their area.
 
-    Where too little was seen, one wall's thickness behind its other face; where that was not seen either, and
+    A beam along the wall is as long as the wall below it, and not as high. Where too little was seen, one wall's thickness behind its other face; where that was not seen either, and
     on walls placed by hand, where it is. Side k runs from corner k to the next, the inside at its left.
 
     :param points: (N, 2) corners.
-    :param seen: (K, 5) offset, start, end, residual, plane; ``first``: (5,) where the rows of a facing begin.
+    :param seen: (K, 6) offset, start, end, residual, plane, height; ``first``: (5,) where the rows of a facing begin.
     :param placed: (H, 5) facing, offset, start, end, plane of the walls moved or added by hand.
     """
     out = np.empty(len(points))
-    rows = np.empty((len(seen), 2))  # offset and length along the side
+    rows = np.empty((len(seen), 2))  # offset, and m2 along the side
     for k in range(len(points)):
         facing, at, low, high = _side(points, k)
         out[k] = at
         if _is_placed(placed, facing, at, low, high):
             continue
-        count, total = 0, 0.0
+        count, total, area = 0, 0.0, 0.0
         for r in range(_begin(seen, first[facing], first[facing + 1], at - 2 * REACH), first[facing + 1]):
             if seen[r, 0] > at + 2 * REACH:
                 break
             length = min(seen[r, 2], high) - max(seen[r, 1], low)
             if abs(seen[r, 0] - at) < REACH and length > 0:
-                rows[count, 0], rows[count, 1] = seen[r, 0], length
+                rows[count, 0], rows[count, 1] = seen[r, 0], length * seen[r, 5]
                 count += 1
                 total += length
+                area += length * seen[r, 5]
         if total < min(_LITTLE, _LITTLE * (high - low)):
             out[k] = _behind_other_face(seen, first, facing, at, low, high, thickness)
         else:
-            out[k] = _median_offset(rows[:count], total)
+            out[k] = _median_offset(rows[:count], area)
     return out
 
 
 @njit(cache=True, nogil=True)
 def _median_offset(rows, total):  # type: ignore[no-untyped-def]
-    """The mean of the surfaces close to the median; ``rows`` (K, 2) offset and length, by offset."""
+    """The mean of the surfaces close to the median; ``rows`` (K, 2) offset and weight, by offset."""
     k, below = 0, rows[0, 1]
     while below < 0.5 * total and k < len(rows) - 1:
         k += 1

@@ -20,6 +20,7 @@ from floorplan_core.model import Facing
 from floorplan_core.model.evidence import Evidence
 
 _WORTH = 200_000  # surfels from which two threads are faster than one
+_HEAD = 2.0  # m above the floor: what hangs higher, a beam along a wall, does not stand before it
 _SKIN = 1  # cells before a surface that its own noise may fill
 _SIDEWAYS = 0.03  # cosine of the steepest view that still tells from which side a surfel was seen
 
@@ -50,7 +51,7 @@ class UprightSurfels:
 
         ``skin`` cells just in front may hold the surface's own noise.
         """
-        tall = count_bits(self.evidence.hits & self.band) >= 4
+        tall = count_bits(self.evidence.hits & self.band & height_mask(0.0, _HEAD)) >= 4
         free = (self.evidence.free & height_mask(0.5, 1.9)) != 0
         free = np.repeat(np.repeat(free, 2, axis=0), 2, axis=1)
         if facing.axis == 1:

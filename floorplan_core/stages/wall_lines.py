@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 
 _ABREAST = 0.25  # m between two planes of one wall: recesses, and voxels of 0.1 m
 _LONG, _BUILT = 6.0, 0.5  # m of a line, and the share of it seen as wall, from which it is one wall
-_BODY, _FREE = (0.4, 1.8), 0.5  # m above the floor at which a passage is free, share of it that must be
+_BODY, _FREE = (0.4, 1.8), 0.35  # m above the floor at which a passage is free, share of it that must be
 _SKIN = 0.1  # m of free space before and behind a wall that a passage must reach
 _NARROWEST = (
     0.15  # m of straight passage, two cells: where a door was seen at a slant, little of it is straight
