@@ -80,17 +80,25 @@ def move_sides(ring: Float, targets: Callable[[Float], Float]) -> Float:
 
 
 def _moved_uncrossed(points: Float, offsets: Float) -> Float:
-    """The corners with those sides left where they are that would turn the side between them round."""
+    """The corners with those sides left where they are that would turn the side between them round.
+
+    First where the ring comes back beside itself, the end of a spike or a notch: a mere step may turn round.
+    """
     following = np.roll(np.arange(len(points)), -1)
-    across = (np.abs(points[:, 0] - points[following, 0]) >= _SAME).astype(np.int64)
+    way = points[following] - points
+    across = (np.abs(way[:, 0]) >= _SAME).astype(np.int64)
     before = points[np.arange(len(points)), across]
+    back = (np.roll(way, 1, axis=0) * np.roll(way, -1, axis=0)).sum(axis=1) < 0
     while True:
         out = np.asarray(_moved(points, offsets))
         if shapely.Polygon(out).is_valid:
             return out
-        turned = ((out[following] - out) * (points[following] - points)).sum(axis=1) < 0
-        beside = np.roll(turned, 1) | np.roll(turned, -1)
-        if not (beside & (offsets != before)).any():
+        turned = ((out[following] - out) * way).sum(axis=1) < 0
+        for ends in (turned & back, turned):
+            beside = np.roll(ends, 1) | np.roll(ends, -1)
+            if (beside & (offsets != before)).any():
+                break
+        else:
             return points
         offsets = np.where(beside, before, offsets)
 

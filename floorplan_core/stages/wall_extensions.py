@@ -26,7 +26,7 @@ Float = NDArray[np.float64]
 _SHORTEST = 0.3  # m of wall that tells where it goes on
 _INSIDE = 0.25  # m from the sides of the region, within which a wall is its side
 _TOUCH = 0.3  # m between the end of a wall and another that it meets there
-_CROSSED = 0.15  # m of the line that may have been seen free: cells are coarse
+_CROSSED = 0.25  # m of the line that may have been seen free: cells are coarse
 _LEAST = 0.1  # m2 of free cells in each part; less in one of them shows nothing
 _EXACT = 1e-6  # m
 

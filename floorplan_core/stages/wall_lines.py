@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
@@ -27,7 +28,8 @@ Mask = NDArray[np.bool_]
 
 _ABREAST = 0.25  # m between two planes of one wall: recesses, and voxels of 0.1 m
 _LONG, _BUILT = 6.0, 0.5  # m of a line, and the share of it seen as wall, from which it is one wall
-_BODY, _FREE = (0.4, 1.8), 0.35  # m above the floor at which a passage is free, share of it that must be
+_BODY = 0.4, 1.8  # m above the floor at which a passage is free
+_FREE, _GHOST = 0.5, 0.35  # share of it that must be; where a leaf stood for a time, that leaves half a wall
 _SKIN = 0.1  # m of free space before and behind a wall that a passage must reach
 _NARROWEST = (
     0.15  # m of straight passage, two cells: where a door was seen at a slant, little of it is straight
@@ -136,8 +138,10 @@ def _passages(
     at = profile.start + profile.step * (np.arange(len(profile.low)) + 0.5)
     within = (at > start) & (at < end)
     stands = np.max([p.profile.low for p in planes if p.profile is not None], axis=0) >= _STANDS
-    free = _passed(planes, evidence)[: len(at)] & within
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(np.int8))).reshape(-1, 2)
+    share = np.where(within, _passed(planes, evidence)[: len(at)], 0.0)
+    sure, edges = runs_of(share > _FREE), runs_of(share > _GHOST)
+    alone = [not ((sure[:, 0] < b) & (sure[:, 1] > a)).any() for a, b in edges]
+    edges = np.concatenate([sure, edges[np.array(alone, dtype=bool)]])
     out = []
     for a, b in edges:
         if (b - a) * profile.step < _NARROWEST:
@@ -148,8 +152,9 @@ def _passages(
     return tuple(map(tuple, united(out).tolist()))
 
 
-def _passed(planes: Sequence[LayoutPlane], evidence: Evidence) -> Mask:
-    """(B,) bins of the profiles in which free space reaches from before to behind all of the planes."""
+def _passed(planes: Sequence[LayoutPlane], evidence: Evidence) -> Float:
+    """(B,) share of a body's height that is free, in bins of the profiles, from before to behind the planes:
+    the least on the way."""
     axis = planes[0].facing.axis
     free = evidence.free if axis == 0 else evidence.free.T
     offsets = [p.offset for p in planes]
@@ -157,8 +162,7 @@ def _passed(planes: Sequence[LayoutPlane], evidence: Evidence) -> Mask:
     first, last = (int((v - evidence.origin[axis]) / evidence.cell) for v in (low, high))
     band = free[:, max(first, 0) : last + 1]
     body = height_mask(*_BODY)
-    open_ = (count_bits(band & body) > _FREE * int(body).bit_count()).all(axis=1)
-    return np.repeat(open_, 2)
+    return np.repeat(count_bits(band & body).min(axis=1) / int(body).bit_count(), 2)
 
 
 def _widened(stands: Mask, a: int, b: int, reach: int, most: int) -> tuple[int, int]:
