@@ -26,11 +26,13 @@ _NO_LENGTH = 1e-9  # m, against division by nothing
 def side_targets(points, seen, first, placed, thickness):  # type: ignore[no-untyped-def]
     """(N,) where each side of a ring belongs: the median of the surfaces seen along it, by their area.
 
-    A beam along the wall is as long as the wall below it, and not as high. Where too little was seen, one wall's thickness behind its other face; where that was not seen either, and
-    on walls placed by hand, where it is. Side k runs from corner k to the next, the inside at its left.
+    A beam along the wall is as long as the wall below it, and not as high. Where too little was seen, one
+    wall's thickness behind its other face; where that was not seen either, and on walls placed by hand, where
+    it is. Side k runs from corner k to the next, the inside at its left.
 
     :param points: (N, 2) corners.
-    :param seen: (K, 6) offset, start, end, residual, plane, height; ``first``: (5,) where the rows of a facing begin.
+    :param seen: (K, 6) offset, start, end, residual, plane, mean height; ``first``: (5,) where the rows of a
+        facing begin.
     :param placed: (H, 5) facing, offset, start, end, plane of the walls moved or added by hand.
     """
     out = np.empty(len(points))

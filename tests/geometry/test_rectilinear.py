@@ -93,6 +93,26 @@ def test_a_ring_whose_other_sides_may_pass_each_other_is_moved_all_the_same():
     assert _same(moved, shapely.union_all([shapely.box(0, 0, 4, 4), shapely.box(4, 0, 8, 3.98)]))
 
 
+def test_a_step_turns_round_though_a_spike_elsewhere_must_not_cross_itself():
+    """The nearer of two pieces of one wall turns out to be the farther; the sides of the arm would cross."""
+    shape = shapely.union_all(
+        [shapely.box(0, 0, 4, 4), shapely.box(4, 0, 8, 4.12), shapely.box(8, 2, 9, 2.04)]
+    )
+    sent = {4.0: 4.02, 4.12: 4.01, 2.0: 2.1, 2.04: 2.0}
+
+    def targets(points):
+        return np.array([sent.get(round(v, 6), v) if v > 0 else v for v in _offsets(points).tolist()])
+
+    def along_y(points):  # sides across x stay where they are
+        upright = points[:, 0] == np.roll(points[:, 0], -1)
+        return np.where(upright, points[:, 0], targets(points))
+
+    moved = map_polygon(shape, lambda ring: move_sides(ring, along_y))
+    arm = shapely.box(8, 2, 9, 2.04)
+    assert moved.is_valid
+    assert _same(moved, shapely.union_all([shapely.box(0, 0, 4, 4.02), shapely.box(4, 0, 8, 4.01), arm]))
+
+
 def test_rings_are_moved_with_the_inside_at_their_left():
     room = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 3, 3))
     turns = []

@@ -33,12 +33,12 @@ def survey(seed: int, count: int = 60) -> list[LayoutSegment]:
     return out
 
 
-def along(segments: list[LayoutSegment], k: int) -> list[tuple[float, float, float, str]]:
-    """Offset, start, end and plane of what was seen along side k."""
+def along(segments: list[LayoutSegment], k: int) -> list[tuple[float, float, float, str, float]]:
+    """Offset, start, end, plane and mean height of what was seen along side k."""
     a, b, facing = ROOM[k], ROOM[(k + 1) % len(ROOM)], LIES[k]
     at, (low, high) = a[facing.axis], sorted((a[1 - facing.axis], b[1 - facing.axis]))
     rows = [
-        (s.offset, max(s.start, low), min(s.end, high), s.plane)
+        (s.offset, max(s.start, low), min(s.end, high), s.plane, s.area / s.length)
         for s in segments
         if s.facing == facing and abs(s.offset - at) < REACH
     ]
@@ -55,7 +55,7 @@ def test_share_and_plane_of_each_side(seed):
         seen = np.zeros(100_000, dtype=bool)  # a ruler along the side
         low = min(ROOM[k] @ [1, 1], ROOM[(k + 1) % len(ROOM)] @ [1, 1]) - ROOM[k][LIES[k].axis]
         total: dict[str, float] = {}
-        for _, start, end, name in rows:
+        for _, start, end, name, _height in rows:
             seen[int((start - low) / length * 1e5) : int((end - low) / length * 1e5)] = True
             total[name] = total.get(name, 0.0) + end - start
         assert share == pytest.approx(seen.mean(), abs=1e-3)
@@ -64,18 +64,26 @@ def test_share_and_plane_of_each_side(seed):
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_a_side_belongs_where_most_of_its_length_was_seen(seed):
+def test_a_side_belongs_where_most_of_its_area_was_seen(seed):
     segments = survey(seed)
     moved = shapely.get_coordinates(WallSurfaces([], segments).fit(shapely.Polygon(ROOM)))
     for k, facing in enumerate(LIES):
         rows = sorted(along(segments, k))
-        length = np.array([end - start for _, start, end, _ in rows])
-        if length.sum() < 0.3:
+        if sum(end - start for _, start, end, _, _ in rows) < 0.3:
             continue
-        middle = rows[int(np.searchsorted(np.cumsum(length), 0.5 * length.sum()))][0]
+        area = np.array([(end - start) * height for _, start, end, _, height in rows])
+        middle = rows[int(np.searchsorted(np.cumsum(area), 0.5 * area.sum()))][0]
         near = [abs(row[0] - middle) < 0.03 for row in rows]
-        wanted = np.average([row[0] for row in rows], weights=length * near)
+        wanted = np.average([row[0] for row in rows], weights=area * near)
         assert np.abs(moved[:, facing.axis] - wanted).min() < 1e-12
+
+
+def test_a_beam_along_a_wall_does_not_move_the_side_to_itself():
+    """It hangs over all of the wall, 15 cm before it; of the wall below something is hidden."""
+    wall = LayoutSegment("s1", Facing.NORTH, 0.0, 0.5, 4.0, 0.2, 2.2, 5.0, 900, 0.01, 0.001, plane="p1")
+    beam = LayoutSegment("s2", Facing.NORTH, 0.15, 0.0, 6.0, 2.3, 2.7, 2.4, 500, 0.01, 0.001, plane="p2")
+    moved = WallSurfaces([], [wall, beam]).fit(shapely.Polygon(ROOM))
+    assert moved.bounds[1] == 0.0
 
 
 def test_where_only_the_other_face_was_seen_the_side_lies_a_thickness_behind_it():

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, Facing, LayoutPlane, WallProfile
+from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.wall_lines import bridge_lines, line_doors
 from tests.drawn_cells import Box, drawn
 
@@ -99,3 +102,19 @@ def test_with_viewpoints_gaps_are_believed() -> None:
     evidence = drawn([CORRIDOR, DOOR], [WALL])
     assert runs(bridge_lines([WALL], evidence, CONFIG)) == PIECES
     assert line_doors([WALL], (), evidence, CONFIG) == ()
+
+
+def ghost(low: float, high: float, levels: int) -> Evidence:
+    """A corridor and a doorway behind it in which only some levels are free: a leaf stood there."""
+    evidence = drawn([CORRIDOR, (low, 2.9, high, 5.0)], [WALL], viewpoints=False)
+    x0, x1 = (round((v - evidence.origin[0]) / evidence.cell) for v in (low, high))
+    y0 = round((2.9 - evidence.origin[1]) / evidence.cell)
+    free = evidence.free.copy()
+    free[y0 : y0 + 5, x0:x1] = np.uint64((1 << levels) - 1) << np.uint64(4)
+    return replace(evidence, free=free)
+
+
+def test_a_leaf_that_stood_in_the_door_for_a_time_does_not_shut_it() -> None:
+    (door,) = line_doors([WALL], (), ghost(6.5, 7.0, 6), CONFIG)  # 6 of the 14 levels of a body
+    assert door.start <= 6.5 and door.end >= 7.0
+    assert not line_doors([WALL], (), ghost(6.5, 7.0, 4), CONFIG)
