@@ -23,7 +23,7 @@ from floorplan_core.model import (
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.observer import Observer
-from floorplan_core.stages.blockers import blockers, close_corners, remove_beams
+from floorplan_core.stages.blockers import blockers, close_beside_doors, close_corners, remove_beams
 from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.corrections import Remarks, Said
 from floorplan_core.stages.corrections_doors import correct_doors, follow_planes
@@ -102,6 +102,7 @@ def lay_out(
         *(doors, planes, machine, say.doors, evidence, config.doors),
     )
     said += remarks
+    planes = stage.correct("stubs", lambda: close_beside_doors(planes, doors), planes, doors)
     grid = stage(
         "occupancy",
         lambda: _within(slice_map(around, planes, doors, config.occupancy), cells),

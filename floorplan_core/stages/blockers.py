@@ -19,6 +19,8 @@ _FLANK, _STANDS = 0.6, 0.25  # m beside an opening in which that much wall must 
 _STUB, _CORNERED = 0.1, 0.5  # m of wall that is a jamb beside a corner, and how near the corner must be
 _SOLID = 0.12  # of the height below 2 m, seen: something stands there
 _PASSED = 1.0  # m of an open stretch through which free space was seen
+_JAMB = 0.1  # m from the edge of a door, where its jamb is wall
+_BESIDE = 4.0  # m of unseen wall between a door and the next corner
 _TOUCH = 0.3  # m beyond the end of the other wall
 
 
@@ -49,6 +51,42 @@ def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
         runs = [(_reach(plane, s, -1, meets), _reach(plane, e, 1, meets)) for s, e in plane.walls]
         out.append(replace(plane, walls=np.array(runs, dtype=np.float64).reshape(-1, 2)))
     return tuple(out)
+
+
+def close_beside_doors(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> tuple[LayoutPlane, ...]:
+    """Wall on both sides of each door, up to the next crossing wall: a door is cut into a wall.
+
+    Of the wall beside a door nothing may have been seen, behind furniture or at too flat an angle; where free
+    space passes it, it is none.
+    """
+    crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
+    out = []
+    for plane in planes:
+        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
+        mine = [d for d in doors if plane.id in d.planes]
+        tips = [(_tip(jamb, k, plane.walls), k) for d in mine for jamb, k in ((d.start, -1), (d.end, 1))]
+        stubs = [sorted((tip, _reach(plane, tip, k, meets, _BESIDE))) for tip, k in tips]
+        more = [(a, b) for a, b in stubs if b > a]
+        out.append(replace(plane, walls=_joined([*plane.walls.tolist(), *more])) if more else plane)
+    return tuple(out)
+
+
+def _tip(jamb: float, sign: int, runs: Float) -> float:
+    """Where the wall that is a door's jamb ends: the jamb itself where no run goes on beside the door."""
+    place = jamb + sign * _JAMB
+    on = runs[(runs[:, 0] <= place) & (place <= runs[:, 1])]
+    return float(max(on[:, 1]) if sign > 0 else min(on[:, 0])) if len(on) else jamb
+
+
+def _joined(runs: Sequence[Sequence[float]]) -> Float:
+    """(K, 2) the runs in order, those that touch as one."""
+    out: list[list[float]] = []
+    for start, end in sorted((float(a), float(b)) for a, b in runs):
+        if out and start <= out[-1][1]:
+            out[-1][1] = max(out[-1][1], end)
+        else:
+            out.append([start, end])
+    return np.array(out, dtype=np.float64).reshape(-1, 2)
 
 
 def remove_beams(
@@ -139,10 +177,10 @@ def _without(runs: Float, spans: list[tuple[float, float]]) -> Float:
     return np.array(pieces, dtype=np.float64).reshape(-1, 2)
 
 
-def _reach(plane: LayoutPlane, end: float, sign: int, meets: Float) -> float:
+def _reach(plane: LayoutPlane, end: float, sign: int, meets: Float, farthest: float = _CORNER) -> float:
     """The end of a run, moved to the nearest crossing wall ahead unless free space passes between."""
     ahead = (meets - end) * sign
-    ahead = ahead[(ahead > 0) & (ahead <= _CORNER)]
+    ahead = ahead[(ahead > 0) & (ahead <= farthest)]
     if len(ahead) == 0 or plane.profile is None:
         return end
     target = end + sign * float(ahead.min())

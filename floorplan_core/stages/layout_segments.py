@@ -4,7 +4,7 @@ In: :class:`Evidence`. Out: segments of each facing, structural or not. For each
 from its side count, which keeps the two faces of a thin wall apart; without sensor origins the side comes
 from where the free space is. Surfaces are found where columns line up along the wall, linked along it, and
 their offset is fitted to the surfels themselves, so that it does not know the grid. Structure is told from
-furniture in :mod:`floorplan_core.stages.structure`. Cost: linear in surfels and columns.
+furniture in :mod:`floorplan_core.stages.structure` and ``wall_faces``. Cost: linear in surfels and columns.
 """
 
 from __future__ import annotations
@@ -29,8 +29,9 @@ from floorplan_core.geometry.columns import (
 )
 from floorplan_core.model import Facing, LayoutSegment
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.structure import Judgement, Patches, in_line, judge
+from floorplan_core.stages.structure import Judgement, Patches, judge
 from floorplan_core.stages.upright_surfels import UprightSurfels, upright_surfels
+from floorplan_core.stages.wall_faces import in_line, other_faces
 
 Float = NDArray[np.float64]
 
@@ -84,7 +85,7 @@ def find_segments(
             named = replace(segment, id=f"s{len(segments) + 1}")
             segments.append(named)
             rows[named.id] = row
-    return tuple(segments), rows
+    return other_faces(segments, config.furniture_height), rows
 
 
 def _segments_of(
@@ -98,7 +99,7 @@ def _segments_of(
     chain = patches.chain
     offset, sigma, weight = _robust_offsets(mean[chain], histogram[chain])
     judged = judge(upright.evidence, facing, patches, offset, config)
-    judged = in_line(judged, patches, offset, upright.evidence.fine) if judged else judged
+    judged = in_line(judged, upright.evidence, facing, patches, offset) if judged else judged
     fits = np.column_stack([offset, sigma, spread[chain], weight, points[chain]]).tolist()
     return [
         _segment(upright.evidence, facing, patches, k, Fit(*fits[k]), judged[k]) for k in range(len(fits))

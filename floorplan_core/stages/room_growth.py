@@ -14,7 +14,7 @@ polygons. Cost: guessed sides times walls.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -42,6 +42,7 @@ _STRIP = 0.4  # of the usual width: a strip without a door that is no wider is n
 _BESIDE = 0.3  # m between a strip of floor and the middle of a wall with a door to it
 _FACED = 0.3  # share of a side that a surface behind all that was seen must face to be the wall there
 _CABINET = 0.7  # m from the front of furniture, within which the wall is that it stands at
+_JUST, _CROSSED = 0.3, 0.3  # m beyond a borrowed side, and share of it that was seen free: it is no wall
 _EXACT = 1e-6  # m
 _FACING = (Facing.EAST, Facing.NORTH, Facing.WEST, Facing.SOUTH)  # of the sides at x0, y0, x1, y1 of a room
 
@@ -264,7 +265,14 @@ class RoomGrower:
             on_plane = bool((np.abs(self._offsets[facing] - side.start[a]) < ON).any())
             if not (on_plane and side.observed > 0):
                 low, high = sorted((side.start[1 - a], side.end[1 - a]))
-                yield Frontier(facing, side.start[a], low, high, on_plane)
+                front = Frontier(facing, side.start[a], low, high, on_plane)
+                yield replace(front, borrowed=False) if on_plane and self._is_crossed(front) else front
+
+    def _is_crossed(self, front: Frontier) -> bool:
+        """True where much of what lies just beyond a side was seen free: there is no wall."""
+        part, grid = front.ahead(_JUST), self._grid
+        window, inside = polygon_window(part, grid.origin, grid.cell, grid.states.shape)
+        return bool(np.count_nonzero(grid.universe[window] & inside) > _CROSSED * inside.sum() > 0)
 
     def _depth(self, front: Frontier, polygon: Any, others: Neighbours) -> float:
         """Metres by which a side goes out; 0 where it stays."""

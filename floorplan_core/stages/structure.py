@@ -1,7 +1,8 @@
 """Structure told from furniture: by the height reached, contact with the ceiling, and being looked over.
 
 In: the patches of one facing, row by row, with their offsets. Out: for each, structure or not, and why.
-Only structure makes layout planes. Cost: linear in rows.
+Only structure makes layout planes. What a patch says of its neighbours is in
+:mod:`~floorplan_core.stages.wall_faces`. Cost: linear in rows.
 """
 
 from __future__ import annotations
@@ -23,9 +24,13 @@ _OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WELL_SEEN = 0.7  # m of the height of a patch seen on average: of glass and reveals it is less
 _BEFORE = 0.25  # of a column: with so much of it before the face it does not tell what is behind
 _LEAF = 1.0  # m: a shorter surface may be the leaf of a door that stands open
+_LARGE = 1.2  # m: no door's leaf is as long
+_FOOT, _AS_FREE = (
+    0.3,
+    0.7,
+)  # m above the floor; share of what is free above a surface that is so below it, too
 LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
-_FLUSH = 0.02  # m between two pieces of one face
-_DOORWAY = 1.3  # m between the jambs of a door
+OVER = "looked over"  # the word for what has air behind and above it
 ALL_LEVELS = np.uint64((1 << 64) - 1)
 
 Judgement = tuple[bool, tuple[str, ...]]  # structure or not, and why
@@ -72,29 +77,12 @@ def _judgement(fine: float, rows: int, tall: int, at_top: int, looked_over: int)
     if at_top / rows >= 0.2 and over < 0.6:
         return True, ("reaches ceiling",)
     if over > 0.3:  # a cabinet, a curtain, a counter: there is air between it and the ceiling
-        return False, ("looked over",)
+        return False, (OVER,)
     if tall / rows >= 0.3 or tall * fine >= 1.0:
         return True, ("above furniture",)
     if rows * fine >= 1.0 and over < 0.1:
         return True, ("long, top not seen",)
     return False, (LOW,)
-
-
-def in_line(judged: list[Judgement], patches: Patches, offset: Float, fine: float) -> list[Judgement]:
-    """The judgements, with low pieces that lie in line with structure, a doorway from it: the wall goes on.
-
-    Beside a door often only the lower part of the wall is seen.
-    """
-    start = np.minimum.reduceat(patches.row, patches.first[:-1]) * fine
-    end = (np.maximum.reduceat(patches.row, patches.first[:-1]) + 1) * fine
-    structure = np.array([found for found, _ in judged], dtype=bool)
-    out = list(judged)
-    for k in range(len(judged)):
-        if judged[k] == (False, (LOW,)):
-            gap = np.maximum(start - end[k], start[k] - end)
-            if (structure & (np.abs(offset - offset[k]) <= _FLUSH) & (gap <= _DOORWAY)).any():
-                out[k] = True, ("in line with a wall",)
-    return out
 
 
 def _looked_over(
@@ -124,8 +112,34 @@ def _looked_over(
     nearer, farther = grid[iv, iu[:, 0]] & above, grid[iv, iu[:, 1]] & above
     beyond = np.where(goes_on, np.uint64(0), farther)
     nearer = np.where(np.repeat(mixed, patches.lengths), beyond, nearer)
-    either = nearer | beyond
-    return np.asarray(np.where(np.repeat(surely, patches.lengths), nearer & farther, either) != 0)
+    over = np.where(np.repeat(surely, patches.lengths), nearer & farther, nearer | beyond) != 0
+    behind = np.where(nearer != 0, grid[iv, iu[:, 0]], grid[iv, iu[:, 1]])
+    below = height_mask(_FOOT, limit) & ~(ALL_LEVELS << (top + np.uint64(1)))
+    elsewhere = _free_below_too(patches, evidence.fine, over, behind, above, below)
+    return np.asarray(over & ~np.repeat(elsewhere, patches.lengths))
+
+
+def _free_below_too(
+    patches: Patches,
+    fine: float,
+    over: NDArray[np.bool_],
+    behind: NDArray[np.uint64],
+    above: NDArray[np.uint64],
+    below: NDArray[np.uint64],
+) -> NDArray[np.bool_]:
+    """(K,) True for the large patches behind which it is as free below their top as above: the room beyond.
+
+    :param over: (R,) the rows that seem looked over, ``behind`` the free levels of the column that says so,
+        ``above`` and ``below`` the levels above and below the top of the surface.
+    """
+    shares = [
+        np.where(over, count_bits(behind & levels) / np.maximum(count_bits(levels), 1), 0.0)
+        for levels in (below, above)
+    ]
+    low, high = (np.add.reduceat(share, patches.first[:-1]) for share in shares)
+    rows = patches.lengths
+    large = patches.area >= _WELL_SEEN * fine * rows
+    return large & (fine * rows > _LARGE) & (low >= _AS_FREE * high)
 
 
 def _surfaces_behind(

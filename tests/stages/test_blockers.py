@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from floorplan_core.model import Facing, LayoutPlane, WallProfile
-from floorplan_core.stages.blockers import passing_offsets, remove_beams
+from floorplan_core.model import Door, Facing, LayoutPlane, WallProfile
+from floorplan_core.stages.blockers import close_beside_doors, passing_offsets, remove_beams
 
 STEP, BEAMS = 0.05, (1.9, 0.45, 4.0)
 CORNER = 10.0  # where the other walls meet the plane
@@ -79,3 +79,23 @@ def test_wider_than_an_opening_both_ends_need_a_jamb() -> None:
     assert not is_cut(spanned([(2.0, 6.5)]), corner)
     assert is_cut(spanned([(2.0, 5.5)]), corner)
     assert not is_cut(spanned([(2.0, 5.5), (9.85, CORNER)]), corner)
+
+
+@pytest.mark.parametrize(
+    ("run", "passed", "closed"),
+    [
+        ((2.0, 7.0), (), [(2.0, 7.0), (8.0, CORNER)]),  # of the stub beyond the door nothing was seen
+        ((2.0, 8.3), (), [(2.0, CORNER)]),  # wall above the door, and a jamb
+        ((2.0, 7.0), (8.2, 9.8), [(2.0, 7.0)]),  # seen to be open
+    ],
+)
+def test_a_door_is_cut_into_a_wall_that_goes_on_to_the_corner(run, passed, closed) -> None:
+    at = STEP * (np.arange(240) + 0.5)
+    through = ((at > passed[0]) & (at < passed[1])).astype(float) if passed else np.zeros(240)
+    profile = WallProfile(0.0, STEP, np.zeros(240), np.zeros(240), through)
+    plane = LayoutPlane("a", Facing.EAST, 4.0, profile=profile, support=5.0, walls=np.array([run]))
+    door = Door("d", ("a",), 0, 4.0, 7.0, 8.0)
+    others = [across(2.0, GOES_ON), across(CORNER, GOES_ON)]
+    found = close_beside_doors([plane, *others], [door])[0].walls
+    assert np.allclose(found, closed)
+    assert close_beside_doors([plane, *others], [])[0] is plane

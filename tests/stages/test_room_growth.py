@@ -227,3 +227,16 @@ def test_a_guessed_side_is_pushed_past_no_surface_that_faces_the_room() -> None:
     beyond = [*ROUND, wall("beyond", Facing.EAST, 5.0 + THICK, 0.0, 4.0)]
     free = grower(beyond, seen=(0.0, 0.0, 3.0, 4.0), loose=(piece(3.4, 0.5, 2.0),))
     assert free.grow(PART, Neighbours([NOTHING])).bounds[2] == pytest.approx(3.4)
+
+
+def test_a_borrowed_side_that_free_space_crosses_goes_on_to_the_wall_ahead() -> None:
+    """The plane at x = 3 is a wall elsewhere; here the room was seen to go on, to the next wall."""
+    planes = [
+        *(wall("w", Facing.EAST, 0.0, 0.0, 3.0), wall("s", Facing.NORTH, 0.0, 0.0, 3.0)),
+        *(wall("n", Facing.SOUTH, 3.0, 0.0, 3.0), wall("far", Facing.EAST, 6.0, -1.0, 4.0)),
+        wall("borrowed", Facing.WEST, 3.0, -4.0, -2.0),
+    ]
+    part = shapely.box(0, 0, 3, 3)
+    whole = grower(planes, seen=(0.5, 0.5, 5.5, 2.5)).grow(part, Neighbours([NOTHING]))
+    assert whole.bounds == pytest.approx((0, 0, 6.0 - THICK, 3), abs=1e-6)
+    assert grower(planes, seen=(0.5, 0.5, 2.9, 2.5)).grow(part, Neighbours([NOTHING])).bounds[2] == 3
