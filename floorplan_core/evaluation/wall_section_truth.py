@@ -60,7 +60,7 @@ def _met(lines: Float) -> Float:
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
     _, place = connected_components(links, directed=False)
     means = [np.bincount(place, points[:, axis]) / np.bincount(place) for axis in (0, 1)]
-    return np.stack(means, axis=1)[place].reshape(-1, 2, 2)
+    return np.asarray(np.stack(means, axis=1)[place].reshape(-1, 2, 2))
 
 
 def _outline(room: dict[str, Any]) -> Any:
