@@ -1,0 +1,10 @@
+"""The CAD drawing that ships."""
+
+from floorplan_core.api import Exporter, hookimpl
+
+
+@hookimpl
+def floorcast_exporters() -> list[Exporter]:
+    from floorplan_core.exporters.dxf import DxfExporter
+
+    return [DxfExporter()]

@@ -1,0 +1,119 @@
+"""plan.dxf as a CAD program reads it (ezdxf's own reader and auditor)."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from ezdxf.document import Drawing
+
+from floorplan_core.exporters.dxf import LAYERS, DxfExporter, dxf_text
+from floorplan_core.exporters.walls import poche, predicted_floor
+from floorplan_core.model import FloorPlan
+from tests.factories import DoorSpec, RoomSpec, l_corridor, make_plan, small_flat
+
+
+def read(plan: FloorPlan) -> Drawing:
+    document = ezdxf.read(io.StringIO(dxf_text(plan)))
+    audit = document.audit()
+    assert not audit.errors
+    assert not audit.fixes
+    return document
+
+
+def rings(document: Drawing, layer: str) -> list[shapely.Polygon]:
+    found = document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
+    return [shapely.Polygon([(x, y) for x, y, *_ in line.get_points()]) for line in found]
+
+
+def layers(document: Drawing, kind: str) -> set[str]:
+    return {entity.dxf.layer for entity in document.modelspace().query(kind)}
+
+
+def test_it_is_in_metres_and_its_layers_have_the_names_of_the_trade() -> None:
+    document = read(l_corridor())
+    assert document.header["$INSUNITS"] == 6
+    dashed = {name: document.layers.get(name).dxf.linetype == "DASHED" for name, _, _ in LAYERS}
+    assert dashed == {name: name.endswith("-PRED") for name, _, _ in LAYERS}
+    assert {e.dxf.layer for e in document.modelspace()} <= set(dashed)
+
+
+def test_rooms_lie_where_they_lie_in_the_world() -> None:
+    plan = make_plan([RoomSpec((0, 0, 4, 3))], yaw_deg=30.0)
+    (room,) = rings(read(plan), "A-AREA")
+    corners = plan.to_world(np.array([[0, 0], [4, 0], [4, 3], [0, 3]]))
+    assert room.symmetric_difference(shapely.Polygon(corners)).area < 1e-3
+
+
+def test_what_is_predicted_has_layers_of_its_own() -> None:
+    plan = l_corridor()
+    document = read(plan)
+    walls = poche(plan)
+    for layer, area in (("A-WALL", walls.observed), ("A-WALL-PRED", walls.guessed)):
+        drawn = shapely.union_all([shapely.Polygon()])
+        for ring in rings(document, layer):  # shells and holes
+            drawn = drawn.symmetric_difference(ring)
+        moved = shapely.transform(area, plan.to_world)
+        assert moved.area > 0
+        assert drawn.symmetric_difference(moved).area < 1e-3
+    hatches = [h for h in document.modelspace().query("HATCH") if h.dxf.layer == "A-AREA-PRED"]
+    assert len(hatches) == len(shapely.get_parts(predicted_floor(plan)))
+    seen = replace(plan, grid=replace(plan.grid, states=plan.grid.states * 0 + 1))
+    assert "A-AREA-PRED" not in layers(read(seen), "HATCH")
+
+
+def _quarter(arc: ezdxf.entities.Arc) -> float:
+    return (arc.dxf.end_angle - arc.dxf.start_angle) % 360
+
+
+@pytest.mark.parametrize("yaw", [0.0, 30.0, 135.0])
+def test_doors_swing_by_a_quarter(yaw: float) -> None:
+    plan = small_flat(yaw_deg=yaw)
+    arcs = list(read(plan).modelspace().query("ARC"))
+    assert len(arcs) == 2
+    for arc in arcs:
+        assert _quarter(arc) == pytest.approx(90, abs=1e-3)
+        assert arc.dxf.radius == pytest.approx(0.9, abs=1e-4)
+
+
+def test_an_opening_is_drawn_by_its_faces() -> None:
+    rooms = [RoomSpec((0, 0, 4, 3)), RoomSpec((4.2, 0, 8, 3))]
+    plan = make_plan(rooms, [DoorSpec(0, 4.1, 0.5, 2.5, "opening", (0, 1))])
+    document = read(plan)
+    lines = document.modelspace().query('LINE[layer=="A-DOOR"]')
+    assert [line.dxf.start.distance(line.dxf.end) for line in lines] == pytest.approx([2.0, 2.0])
+    assert not document.modelspace().query("ARC")
+
+
+def _measured(document: Drawing) -> Sequence[float]:
+    return sorted(round(d.get_measurement(), 3) for d in document.modelspace().query("DIMENSION"))
+
+
+@pytest.mark.parametrize("yaw", [0.0, 30.0])
+def test_dimensions_measure_the_rooms(yaw: float) -> None:
+    document = read(make_plan([RoomSpec((0, 0, 4, 3))], yaw_deg=yaw))
+    assert layers(document, "DIMENSION") == {"A-ANNO-DIMS"}
+    assert _measured(document) == pytest.approx([3, 3, 3, 4, 4, 4], abs=2e-3)
+
+
+def test_names_and_areas_are_written() -> None:
+    texts = {t.dxf.text for t in read(small_flat()).modelspace().query('TEXT[layer=="A-AREA-IDEN"]')}
+    assert {"Living & dining", "14.28 m2", "room, 100 % seen"} <= texts
+
+
+def test_same_plan_same_bytes(tmp_path: Path) -> None:
+    for name in ("a.dxf", "b.dxf"):
+        DxfExporter().write(l_corridor(), tmp_path / name)
+    assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
+    assert not ezdxf.options.write_fixed_meta_data_for_testing
+
+
+def test_a_plan_without_rooms_is_a_title() -> None:
+    document = read(replace(small_flat(), regions=(), doors=()))
+    assert {e.dxf.layer for e in document.modelspace()} == {"A-ANNO-TTLB"}
