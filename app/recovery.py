@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from floorplan_core.errors import FloorPlanError
+from floorplan_core.files import STAGING_PREFIX
 from floorplan_core.process_ids import is_running
 from floorplan_core.project_file import SUFFIX, load, save, write_whole
 
@@ -110,7 +111,9 @@ class Recovery:
 
 def recoverable(folder: Path | None = None) -> list[Recoverable]:
     """What programs that crashed left behind, newest first."""
-    found = [_described(path) for path in (folder or state_folder()).glob(f"*{SUFFIX}")]
+    folder = folder or state_folder()
+    _forget_beginnings(folder)
+    found = [_described(path) for path in folder.glob(f"*{SUFFIX}")]
     return sorted((r for r in found if r is not None), key=lambda r: -r.when)
 
 
@@ -154,8 +157,22 @@ def _described(path: Path) -> Recoverable | None:
 
 
 def _remove(autosave: Path) -> None:
-    for path in (autosave, autosave.with_suffix(_NOTE)):
+    parts = autosave.parent.glob(f"{STAGING_PREFIX}{autosave.stem}*")  # of a save that was never done
+    for path in (autosave, autosave.with_suffix(_NOTE), *parts):
         path.unlink(missing_ok=True)
+
+
+def _forget_beginnings(folder: Path) -> None:
+    """Remove what programs left that were killed before they had kept anything."""
+    for lock in folder.glob(f"*{_LOCK}"):
+        autosave = lock.with_suffix(SUFFIX)
+        try:
+            pid = lock.read_text(encoding="utf-8").strip()
+            if pid.isdecimal() and not is_running(int(pid)) and not autosave.exists():
+                _remove(autosave)
+                lock.unlink(missing_ok=True)
+        except (OSError, ValueError):
+            continue
 
 
 def _is_held(lock: Path) -> bool:

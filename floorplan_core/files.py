@@ -13,14 +13,17 @@ import shutil
 import signal
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
 
 from floorplan_core.errors import OutputError
+from floorplan_core.process_ids import is_running
 
 STAGING_PREFIX = ".floorcast-"
+STALE = 3600.0  # s: a younger folder may be that of a program on another machine that shares the disk
 
 _REASONS = {
     errno.ENOSPC: "there is no space left on the disk; free some, or choose another folder with --out",
@@ -54,7 +57,8 @@ def output_folder(folder: Path) -> Iterator[Path]:
     staging: Path | None = None
     try:
         with writing(folder):
-            staging = Path(tempfile.mkdtemp(prefix=STAGING_PREFIX, dir=folder))
+            _forget_stale(folder)
+            staging = Path(tempfile.mkdtemp(prefix=f"{STAGING_PREFIX}{os.getpid()}-", dir=folder))
         yield staging
         with writing(folder), uninterrupted():
             _move_into_place(staging, folder)
@@ -118,6 +122,17 @@ def _make_folder(folder: Path) -> list[Path]:
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
     return missing
+
+
+def _forget_stale(folder: Path) -> None:
+    """Remove what programs left that were killed while they wrote here."""
+    for staging in folder.glob(f"{STAGING_PREFIX}*-*"):
+        pid = staging.name.removeprefix(STAGING_PREFIX).partition("-")[0]
+        if not pid.isdecimal() or is_running(int(pid)) or not staging.is_dir():
+            continue
+        with suppress(OSError):
+            if time.time() - staging.stat().st_mtime > STALE:
+                shutil.rmtree(staging, ignore_errors=True)
 
 
 def _discard(staging: Path | None, made: list[Path]) -> None:

@@ -11,7 +11,15 @@ import pytest
 
 from floorplan_core import files
 from floorplan_core.errors import OutputError
-from floorplan_core.files import output_file, output_folder, uninterrupted, write_text, writing
+from floorplan_core.files import (
+    STAGING_PREFIX,
+    output_file,
+    output_folder,
+    uninterrupted,
+    write_text,
+    writing,
+)
+from floorplan_core.process_ids import is_running
 
 
 def tree(folder: Path) -> dict[str, str]:
@@ -140,3 +148,18 @@ def test_held_back_signals_are_delivered_once_and_the_handler_returns() -> None:
         os.kill(os.getpid(), signal.SIGINT)
         os.kill(os.getpid(), signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_what_a_killed_program_left_is_removed_but_nothing_of_one_that_may_run(tmp_path: Path) -> None:
+    dead = next(pid for pid in range(2**22, 2, -1) if not is_running(pid))
+    old, young, running = (
+        tmp_path / f"{STAGING_PREFIX}{pid}-{name}"
+        for pid, name in ((dead, "old"), (dead, "young"), (os.getpid(), "old"))
+    )
+    for folder in (old, young, running):
+        folder.mkdir()
+        (folder / "plan.svg").write_text("half")
+    for folder in (old, running):
+        os.utime(folder, (0, 0))
+    write_text(tmp_path / "plan.svg", "whole")
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted([young.name, running.name, "plan.svg"])

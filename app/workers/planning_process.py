@@ -8,6 +8,7 @@ may say :data:`CANCEL` meanwhile. When the window is gone, so is the pipe, and t
 from __future__ import annotations
 
 import logging
+import multiprocessing
 import os
 import signal
 import sys
@@ -16,6 +17,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +32,7 @@ from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.session import Names, PlanningSession
 
 CANCEL = "cancel"
+GRACE = 2.0  # s in which the process may end by itself where the window is gone
 READY = "ready"  # the first message: the process stands
 NICE = 5  # of 19: the window goes first where both want a processor
 LOOK_EVERY = 0.01  # s between two looks whether the window gave up: a look costs 20 microseconds
@@ -47,12 +50,23 @@ def serve(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in a terminal is for the window, which ends us
     if hasattr(os, "nice"):
         os.nice(NICE)
+    threading.Thread(target=_end_with_window, name="end with the window", daemon=True).start()
     try:
         wire.send(connection, (READY,))
         warm_up(Observer(_Wanted(connection)))
         _Desk(connection).work()
     except (WindowGone, EOFError, OSError):
         sys.exit(0)  # nobody is left to be told
+
+
+def _end_with_window() -> None:
+    """A window that is killed tells nobody: who compiles or decodes for long would notice a minute later."""
+    window = multiprocessing.parent_process()
+    if window is None:
+        return
+    wait_for([window.sentinel])
+    time.sleep(GRACE)
+    os._exit(0)
 
 
 def warm_up(observer: Observer) -> None:

@@ -81,7 +81,9 @@ def _insert(ring: Float, vertices: Float) -> Float:
     away = vertices - starts[:, None]  # (edges, vertices, 2)
     along = (away[..., 0] * edge[:, :1] + away[..., 1] * edge[:, 1:]) / length
     across = (away[..., 1] * edge[:, :1] - away[..., 0] * edge[:, 1:]) / length
-    on = (np.abs(across) < ON_EDGE) & (along > MERGE / 2) & (along < length - MERGE / 2)
+    # The corners of a slanted edge were moved when coordinates were made equal, each by itself.
+    reach = np.where(np.abs(edge).min(axis=1) > MERGE, MERGE, ON_EDGE)[:, None]
+    on = (np.abs(across) < reach) & (along > MERGE / 2) & (along < length - MERGE / 2)
     parts = []
     for k in range(len(starts)):
         parts.append(starts[k : k + 1])

@@ -34,6 +34,7 @@ from floorplan_core.stages.regions import make_region
 SHAPED = {"merged", "split"}  # words of a region whose shape is a person's
 _THICKEST = 0.6  # m of wall between two regions that are merged
 _SLIT = 0.02  # m: a narrower hole in a merged region is the jitter of its sides
+_NECK = 2e-4  # m, half the width of what rounding to a tenth of a millimetre may close
 _GRID = 1e-6  # m, to which coordinates are rounded after an overlay
 _TOUCH = 0.01  # m: regions nearer than this touch
 _INSIDE = 0.1  # m inside a merged region, from where a wall would part it
@@ -131,11 +132,25 @@ def _union(parts: Sequence[Any], others: Sequence[Any], close: Close, tidy: Clos
         shapely.union_all([inside, *others], grid_size=_GRID), grid_size=_GRID
     )
     joints = [g for g in polygons_of(between) if sum(g.distance(p) < _TOUCH for p in parts) > 1]
-    whole = tidy(shapely.union_all([*parts, *joints], grid_size=_GRID), _SLIT)
+    whole = without_necks(tidy(shapely.union_all([*parts, *joints], grid_size=_GRID), _SLIT))
     taken = [o for o in others if o.intersection(whole).area > _GRID]  # a slit may have been another's edge
     if taken:
         whole = max(polygons_of(whole.difference(shapely.union_all(taken), grid_size=_GRID)), key=_area)
     return whole if whole.geom_type == "Polygon" else None
+
+
+def without_necks(shape: Any) -> Any:
+    """The largest part of a polygon, parted where it is so narrow that rounding would make it touch itself;
+    the polygon itself where it is nowhere so narrow."""
+    wide = shape.buffer(-_NECK, join_style="mitre").buffer(_NECK, join_style="mitre")
+    parts = polygons_of(shapely.set_precision(wide, _GRID))
+    if not parts or (len(parts) == 1 and len(parts[0].interiors) == sum(map(_holes, polygons_of(shape)))):
+        return shape
+    return parts[0]
+
+
+def _holes(shape: Any) -> int:
+    return len(shape.interiors)
 
 
 def _area(shape: Any) -> float:
@@ -207,7 +222,7 @@ def _cut(polygon: Any, line: SplitRegion, turn: float) -> list[Any]:
         step = _GRID * 10 * (b - a) / np.linalg.norm(b - a)  # beyond the sides, so that it surely crosses
         cutter = shapely.LineString([a - step, b + step])
         pieces = [q for p in pieces for q in split_by(p, cutter).geoms]
-    return [shapely.set_precision(p, _GRID) for p in pieces]
+    return [without_necks(shapely.set_precision(p, _GRID)) for p in pieces]
 
 
 def _turned(shape: Any, turn: float) -> Any:

@@ -193,6 +193,10 @@ def _up_to(polygon: Any, part: PartLayout, walls: Any) -> Any:
         .buffer(-_GAP / 2, join_style="mitre")
     )
     extra = closed.intersection(near.buffer(_GAP)).difference(polygon).difference(band)
+    drawn = _drawn_walls(part)  # what lies behind one is seen floor, but another room's
+    if not drawn.is_empty:
+        extra = extra.difference(drawn.buffer(_HALF_WALL, cap_style="flat"))
+        extra = shapely.union_all([p for p in polygons_of(extra) if p.distance(polygon) < _EXACT])
     seen = [piece for piece in polygons_of(extra) if _is_floor(piece, part)]
     if not seen:
         return polygon
@@ -200,6 +204,11 @@ def _up_to(polygon: Any, part: PartLayout, walls: Any) -> Any:
     return max(
         polygons_of(grown.difference(walls.buffer(_HALF_WALL / 2, cap_style="flat"))), key=lambda p: p.area
     )
+
+
+def _drawn_walls(part: PartLayout) -> Any:
+    """The walls that a person drew in a part, in the axes of the plan."""
+    return walls_of([replace(part, planes=tuple(p for p in part.planes if p.by_hand == "added"))])
 
 
 def _is_floor(piece: Any, part: PartLayout) -> bool:

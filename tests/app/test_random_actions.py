@@ -41,7 +41,6 @@ def elsewhere(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathF
     bench.open_survey(WORLDS[request.param](tmp_path_factory.mktemp(request.param)))
     settle(bench)
     assert bench.plan is not None, bench.ui.told
-    bench.ui.told.clear()
     return bench
 
 
