@@ -16,6 +16,7 @@ app.run("file.open", path=os.environ["SURVEY"])
 app.picture(f"{out}/window.png")
 app.run("correct.rename", region=app.workbench.plan.regions[0].id, name="Entrance")
 app.run("file.export", path=f"{out}/edited.geojson")
+app.run("file.export", path=f"{out}/edited.dxf")
 app.run("file.save", path=f"{out}/edited.floorcast")
 SCRIPT
 run() { env -i HOME="$work" PATH=/nowhere LANG=C.UTF-8 "$@"; }
@@ -24,7 +25,7 @@ run "$program/floorcast" plugins > /dev/null
 run "$program/floorcast" plan "$survey" --out "$work/plan"
 run OUT="$work" SURVEY="$survey" "$program/floorcast" gui --script "$work/tour.py"
 grep -q '"name":"Entrance"\|"name": "Entrance"' "$work/edited.geojson"
-for file in plan/plan.svg plan/plan.geojson plan/plan.png window.png edited.floorcast; do
+for file in plan/plan.svg plan/plan.geojson plan/plan.png window.png edited.dxf edited.floorcast; do
     test -s "$work/$file" || { echo "the frozen program wrote no $file" >&2; exit 1; }
 done
 begun=$(date +%s%N)
