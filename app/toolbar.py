@@ -74,7 +74,7 @@ class MainToolbar(QToolBar):
             for exporter in default_registry().exporters:
                 text = f"{exporter.name}\t{exporter.suffixes[0]}"
                 action = menu.addAction(text, lambda s=exporter.suffixes[0]: self._export(s))
-                action.setToolTip(exporter.description)
+                action.setToolTip(tr(exporter.description))
 
         menu.setToolTipsVisible(True)
         menu.aboutToShow.connect(fill)

@@ -74,7 +74,7 @@ def strings() -> set[str]:
         found |= set(_sentences_of(ast.parse(path.read_text(encoding="utf-8"))))
     shown = {
         s
-        for s in (*found, *_actions(), *_settings(), *_preferences(), *_presets())
+        for s in (*found, *_actions(), *_settings(), *_preferences(), *_presets(), *_formats())
         if re.search(r"[^\W\d_]{2}", s)
     }
     return shown | LETTERS
@@ -195,6 +195,13 @@ def _presets() -> Iterator[str]:
 
     for preset in presets():
         yield from (preset.name, preset.reason)
+
+
+def _formats() -> Iterator[str]:
+    from floorplan_core.plugins import default_registry
+
+    for exporter in default_registry().exporters:
+        yield exporter.description
 
 
 def contexts() -> set[str]:

@@ -82,25 +82,31 @@ def save_as(workbench: Workbench, path: str | Path | None = None) -> None:
         save(workbench, target if target.suffix else target.with_suffix(PROJECT_SUFFIX))
 
 
-def export(workbench: Workbench, path: str | Path | None = None, suffix: str = ".svg") -> None:
+def export(
+    workbench: Workbench,
+    path: str | Path | None = None,
+    suffix: str = ".svg",
+    units: str = "metric",
+    language: str = "en",
+) -> None:
     """Write the plan in the format that the file's suffix names; a job, as large plans take their time.
 
     :param suffix: the format that is offered where no path is given.
+    :param units: of drawings and pictures: metric or imperial.
+    :param language: of their words: en or de.
     """
+    from floorplan_core.drawing_style import DrawingStyle, in_style
     from floorplan_core.files import output_file
     from floorplan_core.plugins import default_registry
 
     assert workbench.plan is not None
     if workbench.jobs.running:
         raise UsageError("The plan is not ready yet: export it when it is, or cancel what runs.")
-    target = (
-        Path(path)
-        if path is not None
-        else workbench.ui.ask_save("Export the plan", "export", f"{Path(workbench.plan.source).stem}{suffix}")
-    )
-    if target is None:
+    if path is None:
+        workbench.ui.show("export", suffix=suffix)
         return
-    exporter, plan = default_registry().exporter(target), workbench.plan
+    target, plan = Path(path), workbench.plan
+    exporter = in_style(default_registry().exporter(target), DrawingStyle(units, language))
 
     def work(observer: Observer) -> None:
         observer.stage_started("export")

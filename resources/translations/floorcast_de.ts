@@ -55,6 +55,10 @@
    <translation>95 % innerhalb {band}</translation>
   </message>
   <message>
+   <source>A CAD drawing in metres: walls, doors, areas, dimensions; predicted parts on layers of their own.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
    <source>A corridor opens into a hall</source>
    <translation>Ein Flur mündet in eine Halle</translation>
   </message>
@@ -77,6 +81,10 @@
   <message>
    <source>A door, or an opening: wider, or without a lintel</source>
    <translation>Eine Tür oder eine Öffnung: breiter oder ohne Sturz</translation>
+  </message>
+  <message>
+   <source>A drawing at a usual scale: walls, doors, areas, dimensions, seen and predicted told apart.</source>
+   <translation>Eine Zeichnung in üblichem Maßstab: Wände, Türen, Flächen, Maße, Gesehenes und Vorhergesagtes unterschieden.</translation>
   </message>
   <message>
    <source>A label is a word, like room or corridor.</source>
@@ -221,6 +229,10 @@
   <message>
    <source>An observed offset may differ this much from its plane (3 sigma).</source>
    <translation>So weit darf eine gemessene Lage von ihrer Ebene abweichen (3 Sigma).</translation>
+  </message>
+  <message>
+   <source>An occupancy grid for robots (YAML and PGM): what was seen; all else is unknown.</source>
+   <translation type="unfinished" />
   </message>
   <message>
    <source>Angle</source>
@@ -699,6 +711,10 @@
    <translation>Den Plan exportieren</translation>
   </message>
   <message>
+   <source>Export the plan: give the path as an argument; a script has nobody to ask.</source>
+   <translation>Plan exportieren: den Pfad als Argument angeben; ein Skript kann niemanden fragen.</translation>
+  </message>
+  <message>
    <source>Exported {0}.</source>
    <translation>{0} exportiert.</translation>
   </message>
@@ -745,6 +761,18 @@
   <message>
    <source>Feet and inches</source>
    <translation>Fuß und Zoll</translation>
+  </message>
+  <message>
+   <source>Figure (a): layout planes as red (x) and green (y) dotted lines over their observed points.</source>
+   <translation>Abbildung (a): Wandebenen als rote (x) und grüne (y) Punktlinien über ihren gesehenen Punkten.</translation>
+  </message>
+  <message>
+   <source>Figure (b): known free white, speculated free grey, the rest black, the plan outlined.</source>
+   <translation>Abbildung (b): bekannt Freies weiß, vermutet Freies grau, der Rest schwarz, der Plan umrissen.</translation>
+  </message>
+  <message>
+   <source>Figure (c): rooms cyan, corridors magenta, doors yellow, regions numbered, areas.</source>
+   <translation>Abbildung (c): Räume cyan, Flure magenta, Türen gelb, Regionen mit Nummern, Flächen.</translation>
   </message>
   <message>
    <source>File</source>
@@ -821,6 +849,10 @@
   <message>
    <source>Force the yaw of the walls instead of estimating it.</source>
    <translation>Die Drehung der Wände vorgeben, statt sie zu schätzen.</translation>
+  </message>
+  <message>
+   <source>Format</source>
+   <translation>Format</translation>
   </message>
   <message>
    <source>Four panes side by side.</source>
@@ -1205,6 +1237,14 @@
   <message>
    <source>Length that is wall: seen, or between seen parts</source>
    <translation>Länge, die Wand ist: gesehen oder zwischen gesehenen Teilen</translation>
+  </message>
+  <message>
+   <source>Lengths</source>
+   <translation>Längen</translation>
+  </message>
+  <message>
+   <source>Lengths, areas and words of the drawing; its scale and paper go with the units.</source>
+   <translation>Längen, Flächen und Wörter der Zeichnung; Maßstab und Papier richten sich nach den Einheiten.</translation>
   </message>
   <message>
    <source>Lengths, differences, percentages, means and accuracy bands as CSV.</source>
@@ -1951,6 +1991,10 @@
    <translation>Die Regionen {0} berühren sich nicht: Sie lassen sich nicht vereinen.</translation>
   </message>
   <message>
+   <source>Regions, doors, planes, segments and predicted space for GIS, scripts and robots.</source>
+   <translation>Regionen, Türen, Ebenen, Segmente und vorhergesagter Raum für GIS, Skripte und Roboter.</translation>
+  </message>
+  <message>
    <source>Regions: connected unions of chosen rectangles.</source>
    <translation>Regionen: zusammenhängende Vereinigungen gewählter Rechtecke.</translation>
   </message>
@@ -2687,6 +2731,10 @@
    <translation>Dieselbe Szene in Open3Ds eigener Anzeige.</translation>
   </message>
   <message>
+   <source>The same with predicted floor free and guessed walls occupied: for planning ahead.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
    <source>The script {0} does not exist.</source>
    <translation>Das Skript {0} gibt es nicht.</translation>
   </message>
@@ -2817,6 +2865,10 @@
   <message>
    <source>Thickness between its two faces</source>
    <translation>Dicke zwischen ihren beiden Seiten</translation>
+  </message>
+  <message>
+   <source>This format has metres and English words for every reader.</source>
+   <translation>Dieses Format hat für alle Leser Meter und englische Wörter.</translation>
   </message>
   <message>
    <source>This survey does not say when its points were measured.</source>
@@ -3321,6 +3373,10 @@
   <message>
    <source>north</source>
    <translation>Norden</translation>
+  </message>
+  <message>
+   <source>one grey value for each region, on the raster of the grid map</source>
+   <translation>ein Grauwert für jede Region, auf dem Raster der Rasterkarte</translation>
   </message>
   <message>
    <source>opening</source>

@@ -81,6 +81,7 @@ def test_an_export_offers_the_chosen_format(
 
     offered: list[str] = []
     monkeypatch.setattr(window.workbench.ui, "ask_save", lambda title, kind, name: offered.append(name))
+    monkeypatch.setattr(window, "unattended", False)
     window.workbench.plan = small_flat()
     export(window.workbench, suffix=".geojson")
     assert [Path(name).suffix for name in offered] == [".geojson"]
