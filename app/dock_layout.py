@@ -110,6 +110,11 @@ class Proportions(QObject):
         if self._sizes and self._window.size() != self._whole:
             self._follows.start()
 
+    @property
+    def busy(self) -> bool:
+        """True while the docks are about to follow a new size."""
+        return self._follows.isActive() or self._rests.isActive()
+
     def kept(self) -> str:
         """The sizes as text, to be given to :meth:`recall` with the arrangement that they belong to."""
         sizes = {id: [size.width(), size.height()] for id, size in self._sizes.items()}

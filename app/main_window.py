@@ -328,7 +328,8 @@ class MainWindow(QMainWindow):
         end = time.monotonic() + LAST_WAIT
         while time.monotonic() < end:
             QApplication.processEvents()
-            if all(getattr(dock.widget(), "ready", True) for dock in self.docks.values()):
+            shown = (dock.widget() for dock in self.docks.values())
+            if not self._proportions.busy and all(getattr(widget, "ready", True) for widget in shown):
                 break
             time.sleep(0.01)
 

@@ -37,7 +37,13 @@ class ViewState:
     def __init__(self) -> None:
         self.look = Look()
         self.room: tuple[float, float] | None = None  # pixels of the plan's pane, where there is one
+        self.fitted: tuple[tuple[float, float], float] | None = None  # all in view
         self.changed = Event()  # (before: Look, after: Look)
+
+    @property
+    def is_fitted(self) -> bool:
+        """True while nobody has moved the camera since the whole plan was brought into view."""
+        return self.fitted == (self.look.centre, self.look.span)
 
     def set(self, **values: Any) -> None:
         """Change some of the look's fields."""

@@ -26,7 +26,9 @@ def fit(workbench: Workbench) -> None:
     x0, y0 = min(b[0] for b in boxes), min(b[1] for b in boxes)
     x1, y1 = max(b[2] for b in boxes), max(b[3] for b in boxes)
     span = _span(workbench.view.room, x1 - x0 + 2 * WALL, y1 - y0 + 2 * WALL)
-    workbench.view.set(centre=((x0 + x1) / 2, (y0 + y1) / 2), span=span)
+    centre = (x0 + x1) / 2, (y0 + y1) / 2
+    workbench.view.fitted = centre, span
+    workbench.view.set(centre=centre, span=span)
 
 
 def _span(room: tuple[float, float] | None, width: float, height: float) -> float:

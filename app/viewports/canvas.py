@@ -99,8 +99,8 @@ class PlanCanvas(QWidget):
 
     @property
     def ready(self) -> bool:
-        """True where no plan is on its way to be shown."""
-        return not self._builder.busy
+        """True where no plan is on its way to be shown, and none is shown as another camera had it."""
+        return not self._builder.busy and not self._settle.isActive()
 
     @property
     def camera(self) -> Camera:

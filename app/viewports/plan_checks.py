@@ -31,14 +31,22 @@ def check_at(workbench: Workbench, x: float, y: float, reach: float) -> Item | N
 
 
 def paint_checks(painter: QPainter, frame: Frame, workbench: Workbench, taken: Sequence[QRectF]) -> None:
-    """All measurements, selected and hovered ones lit up; their lengths beside what is ``taken``."""
+    """All measurements, selected and hovered ones lit up; their lengths beside what is ``taken``.
+
+    Lengths that would hide names or each other are left out until their measurement is lit up: those come
+    first, then the longest. The table has all of them.
+    """
     if LAYER not in frame.look.layers:
         return
-    c, selection = frame.colours, workbench.selection
+    c, selection, written = frame.colours, workbench.selection, list(taken)
+    lit = (*selection.items, selection.hovered)
+    shown = []
     for check in workbench.state.checks:
         ends, item = check_ends(workbench, check.id), Item("check", check.id)
-        if ends is None or not frame.shows("check", check.id):
-            continue
+        if ends is not None and frame.shows("check", check.id):
+            shown.append((item not in lit, -math.dist(*ends), item, ends))
+    for unlit, length, item, ends in sorted(shown, key=lambda s: s[:2]):
         tone = c.selection if item in selection.items else c.accent
         tone = c.hover if item == selection.hovered else tone
-        paint_check(painter, frame, ends, math.dist(*ends), tone, taken)
+        box = paint_check(painter, frame, ends, -length, tone, written, always=not unlit)
+        written += [box] if box is not None else []

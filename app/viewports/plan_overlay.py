@@ -76,8 +76,13 @@ def paint_check(
     metres: float,
     tone: str,
     taken: Sequence[QRectF] = (),
-) -> None:
-    """A measurement: a line with ticks and its length, beside what is ``taken`` where the line is long."""
+    always: bool = True,
+) -> QRectF | None:
+    """A measurement: a line with ticks and its length, beside what is ``taken`` where the line is long.
+
+    :param always: with the length even where it hides something.
+    :returns: where the length is written, pixels; None where it is not.
+    """
     a, b = (QPointF(*frame.camera.point(*end)) for end in ends)
     painter.setPen(pen(tone, 1.6))
     painter.drawLine(a, b)
@@ -85,22 +90,33 @@ def paint_check(
     across_ = QPointF(-math.sin(angle) * TICK, math.cos(angle) * TICK)
     for end in (a, b):
         painter.drawLine(end - across_, end + across_)
-    if math.hypot(b.x() - a.x(), b.y() - a.y()) > 2 * TICK:
-        text = format.length(metres, frame.look.units)
-        wide = text_size(text, SMALL, 600)[0] + 4 * TICK
-        raised = 3 * TICK if math.hypot(b.x() - a.x(), b.y() - a.y()) < wide else 0.0
-        x, y = _free_place(a, b, wide, taken)
-        at = (x, y - raised)
+    length = math.hypot(b.x() - a.x(), b.y() - a.y())
+    if length <= 2 * TICK:
+        return None
+    text = format.length(metres, frame.look.units)
+    wide = text_size(text, SMALL, 600)[0] + 4 * TICK
+    raised = 3 * TICK if length < wide else 0.0
+    box = _free_place(a, b, wide, raised, taken, always)
+    if box is not None:
+        at = box.center().x(), box.center().y()
         draw_text(painter, text, at, SMALL, colour(tone), 600, False, colour(frame.colours.panel, 0.92))
+    return box
 
 
-def _free_place(a: QPointF, b: QPointF, wide: float, taken: Sequence[QRectF]) -> tuple[float, float]:
-    """The place on the line a-b, near its middle, where a text of this width hides no name."""
-    places = [a + (b - a) * share for share in PLACES]
-    boxes = [QRectF(p.x() - wide / 2, p.y() - 2 * TICK, wide, 4 * TICK) for p in places]
-    free = (p for p, box in zip(places, boxes, strict=True) if not any(box.intersects(t) for t in taken))
-    at = next(free, places[0])
-    return at.x(), at.y()
+def _free_place(
+    a: QPointF, b: QPointF, wide: float, raised: float, taken: Sequence[QRectF], always: bool
+) -> QRectF | None:
+    """The place on or above the line a-b, near its middle, where a text of this width hides nothing.
+
+    Where there is none: the middle, or no place at all.
+    """
+    points = [a + (b - a) * share for share in PLACES]
+    lifts = (raised, -raised) if raised else (0.0,)
+    boxes = [
+        QRectF(p.x() - wide / 2, p.y() - lift - 2 * TICK, wide, 4 * TICK) for lift in lifts for p in points
+    ]
+    free = (box for box in boxes if not any(box.intersects(t) for t in taken))
+    return next(free, boxes[0] if always else None)
 
 
 def paint_pins(

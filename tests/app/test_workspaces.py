@@ -7,6 +7,8 @@ from pytestqt.qtbot import QtBot
 
 from floorcast_app.dock_layout import tab_bars
 from floorcast_app.main_window import MainWindow
+from floorcast_app.script import ScriptedApplication
+from tests.app.pump import SAMPLE
 from tests.app.windows import open_window
 
 
@@ -38,3 +40,21 @@ def test_the_tables_do_not_take_what_a_larger_window_gives(qtbot: QtBot) -> None
         qtbot.wait(200)
         window.workbench.run("view.inspect")
         qtbot.waitUntil(lambda: window.docks["region_list"].height() < 0.3 * window.height())
+
+
+def test_a_plan_that_was_whole_stays_whole_in_a_pane_of_another_size(qtbot: QtBot) -> None:
+    with open_window(1440, 900) as window:
+        w = window.workbench
+        ScriptedApplication(window).run("file.open", path=SAMPLE)
+        w.run("view.plan")
+        w.run("view.fit")
+        pane = window.pane("floor_plan")
+        before, room = w.view.look.span, w.view.room
+        window.resize(1000, 640)
+        qtbot.waitUntil(lambda: w.view.room != room and pane.ready)
+        smaller, room = w.view.look.span, w.view.room
+        assert smaller > before  # the dimensions need more of a smaller pane
+        w.view.set(span=smaller / 2)  # somebody has zoomed in: that stays
+        window.resize(1440, 900)
+        qtbot.waitUntil(lambda: w.view.room != room and pane.ready)
+        assert w.view.look.span == smaller / 2

@@ -233,13 +233,14 @@ def test_what_the_stages_found_is_shown_before_the_plan_is_whole(qtbot, workbenc
 
 
 def test_a_picture_is_of_the_present_plan_even_before_it_is_built(qtbot, workbench, drawn):
+    again = opened(qtbot, FloorPlanView(drawn))
+    qtbot.waitUntil(lambda: again.ready)  # fitted to its size
     pane = FloorPlanView(workbench)
     qtbot.addWidget(pane)
     workbench.plan = drawn.plan
     workbench.view.put(drawn.view.look)
     workbench.plan_changed.emit(drawn.plan)
     late = array(pane.picture(400, 300))
-    again = opened(qtbot, FloorPlanView(drawn))
     assert (late == array(again.picture(400, 300))).all()
 
 

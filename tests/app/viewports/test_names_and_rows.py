@@ -67,6 +67,10 @@ def test_the_seat_of_a_number_is_a_square_in_the_region() -> None:
 
 def test_a_length_is_written_beside_a_name_on_its_line() -> None:
     name = QRectF(80, -10, 40, 20)
-    x, y = _free_place(QPointF(0, 0), QPointF(200, 0), 30, (name,))
-    assert not QRectF(x - 15, y - 5, 30, 10).intersects(name)
-    assert _free_place(QPointF(0, 0), QPointF(200, 0), 30, ()) == (100.0, 0.0)
+    a, b = QPointF(0, 0), QPointF(200, 0)
+    box = _free_place(a, b, 30, 0.0, (name,), always=False)
+    assert box is not None
+    assert not box.intersects(name)
+    alone = _free_place(a, b, 30, 0.0, (), always=False)
+    assert alone is not None
+    assert alone.center() == QPointF(100.0, 0.0)
