@@ -56,7 +56,7 @@
   </message>
   <message>
    <source>A CAD drawing in metres: walls, doors, areas, dimensions; predicted parts on layers of their own.</source>
-   <translation type="unfinished" />
+   <translation>Eine CAD-Zeichnung in Metern: Wände, Türen, Flächen, Maße; Vorhergesagtes auf eigenen Layern.</translation>
   </message>
   <message>
    <source>A corridor opens into a hall</source>
@@ -232,7 +232,7 @@
   </message>
   <message>
    <source>An occupancy grid for robots (YAML and PGM): what was seen; all else is unknown.</source>
-   <translation type="unfinished" />
+   <translation>Eine Belegungskarte für Roboter (YAML und PGM): was gesehen wurde; alles andere ist unbekannt.</translation>
   </message>
   <message>
    <source>Angle</source>
@@ -2732,7 +2732,7 @@
   </message>
   <message>
    <source>The same with predicted floor free and guessed walls occupied: for planning ahead.</source>
-   <translation type="unfinished" />
+   <translation>Dieselbe mit vorhergesagtem Boden als frei und geratenen Wänden als belegt: um vorauszuplanen.</translation>
   </message>
   <message>
    <source>The script {0} does not exist.</source>
