@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplan_core.geometry import ray_carving
-from floorplan_core.geometry.ray_carving import MOST, ONE, SHIFT, MissMap
+from floorplan_core.geometry.ray_carving import MOST, MissMap
+from floorplan_core.geometry.ray_steps import ONE, SHIFT
 from floorplan_core.geometry.voxel_keys import BIAS, EMPTY
 
 SIZE = 0.1
@@ -96,6 +97,20 @@ def test_growth_and_chunks_do_not_change_the_counts():
     expected = {v for o, p in zip(origins, points, strict=True) for v in _walk(o, p)}
     inside = {v for v in expected if all(-60 <= c < 60 for c in v[:2]) and -20 <= v[2] < 20}
     assert _counted(_bits(whole)) == inside
+
+
+@pytest.mark.parametrize("apart", [0.001, 0.01, 0.1])
+def test_neighbouring_rays_of_one_place_count_as_each_would_alone(apart):
+    rng = np.random.default_rng(8)
+    turn = np.arange(900) * apart
+    reach = 4 + np.repeat(rng.uniform(-2, 2, 30), 30)  # edges at which a ray ends far behind the one before
+    points = np.stack([np.cos(turn), np.sin(turn), 0.3 * np.sin(9 * turn)], 1) * reach[:, None]
+    points[::97] = np.nan
+    place, misses = np.array([[0.02, -0.03, 0.04]]), MissMap(SIZE)
+    misses.carve(points, np.zeros(900, dtype=np.int32), place, LIMITS)
+    passed = Counter(v for p in points[np.isfinite(points[:, 0])] for v in _walk(place[0], p))
+    for least in (1, 2, 5, 40, MOST):
+        assert _counted(_bits(misses, least)) == {v for v, rays in passed.items() if rays >= least}
 
 
 def test_what_has_no_sensor_or_no_range_casts_no_ray():
