@@ -8,6 +8,7 @@ DXF has no unit but ``$INSUNITS``, which says metres. The same plan always gives
 from __future__ import annotations
 
 import io
+import logging
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -77,7 +78,8 @@ def dxf_text(plan: FloorPlan) -> str:
 
 @contextmanager
 def _same_bytes() -> Iterator[None]:
-    """Without time stamps and random identifiers, as ezdxf offers for tests."""
+    """Without time stamps and random identifiers, as ezdxf offers for tests; and without its remarks."""
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # on fonts, a cache that cannot be written
     import ezdxf
 
     before = ezdxf.options.write_fixed_meta_data_for_testing
