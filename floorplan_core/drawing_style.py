@@ -13,6 +13,7 @@ from floorplan_core.errors import UsageError
 
 METRES_PER_FOOT = 0.3048
 INCH_PARTS = 4  # drawings say a quarter of an inch (6 mm), as they say a centimetre
+NEARLY = "≈"
 FRACTIONS = ("", "¼", "½", "¾")
 SYSTEMS = ("metric", "imperial")
 LANGUAGES = ("en", "de")
@@ -42,6 +43,7 @@ GERMAN = {
     "storey {}": "Geschoss {}",
     "lengths in metres": "Längen in Metern",
     "lengths in feet and inches": "Längen in Fuß und Zoll",
+    "≈ to a speculated wall": "≈ bis zu einer vermuteten Wand",
     "Scale {} when printed on {} at full size": "Maßstab {} beim Druck auf {} in voller Größe",
     "A0 or larger": "A0 oder größer",
     "E or larger": "E oder größer",
@@ -111,15 +113,19 @@ class DrawingStyle:
         """A round number, without zeros behind the mark."""
         return f"{value:g}".translate(MARKS[self.language])
 
-    def dimension(self, metres: float) -> str:
+    def dimension(self, metres: float, guessed: bool = False) -> str:
         """A length as it is written at a dimension line, without the unit that goes without saying.
+
+        A length to a wall that was ``guessed`` carries the sign of what is nearly equal.
 
         >>> DrawingStyle().dimension(3.2), DrawingStyle("imperial").dimension(3.2)
         ('3.20', '10\\' 6"')
         >>> DrawingStyle("imperial").dimension(0.9), DrawingStyle("metric", "de").dimension(0.9)
         ('2\\' 11½"', '0,90')
         """
-        return feet_and_inches(metres) if self.imperial else self.number(metres, 2)
+        return (NEARLY if guessed else "") + (
+            feet_and_inches(metres) if self.imperial else self.number(metres, 2)
+        )
 
     def length(self, metres: float) -> str:
         """A length with its unit."""

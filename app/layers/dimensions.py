@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import shapely
 
 from floorcast_app.layers.source import PlanSource
-from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, overall
+from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, ends_guessed, overall_span
 from floorplan_core.exporters.svg_labels import is_rectangle
+from floorplan_core.model import Region
 
 SLIM = 1.8  # arms this much longer than wide get a width
 PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9)  # along the arm, in the order in which they are tried
@@ -37,6 +38,7 @@ class Width:
     start: tuple[float, float]  # metres, manhattan frame
     end: tuple[float, float]
     length: float  # metres
+    guessed: bool = False  # True where it goes to a wall that nobody saw
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ def dimensions_layer(source: PlanSource) -> DimensionsLayer:
         ]
     )
     slim = [r for r in source.drawn.regions if not is_rectangle(r)]
-    widths = (_width(arm, taken) for r in slim for arm in arms(r.polygon, SLIM))
+    widths = (_width(r, arm, taken) for r in slim for arm in arms(r.polygon, SLIM))
     rows = (*_rows(source, 1, 1), *_rows(source, 0, -1))
     return DimensionsLayer(rows, tuple(w for w in widths if w is not None))
 
@@ -80,7 +82,7 @@ def _rows(source: PlanSource, axis: int, sign: int) -> list[Row]:
     regions = source.drawn.regions
     edges = {s: source.extent[axis + (2 if s > 0 else 0)] for s in (-1, 1)}
     one, other = chain(regions, axis, sign), chain(regions, axis, -sign)
-    total = (Span(*overall(regions, 1 - axis), float("nan")),)
+    total = (overall_span(regions, 1 - axis),)
     rows = [Row(axis, sign, 1, edges[sign], one)]
     if differs(other, [*one, *total]):
         rows.append(Row(axis, -sign, 1, edges[-sign], other))
@@ -89,7 +91,7 @@ def _rows(source: PlanSource, axis: int, sign: int) -> list[Row]:
     return rows
 
 
-def _width(arm: Arm, taken: object) -> Width | None:
+def _width(region: Region, arm: Arm, taken: object) -> Width | None:
     """Across the arm, at the first place where nothing is in the way."""
     for share in PLACES:
         at = arm.start + share * (arm.end - arm.start)
@@ -97,5 +99,6 @@ def _width(arm: Arm, taken: object) -> Width | None:
         a, b = ends if arm.axis == 0 else (ends[0][::-1], ends[1][::-1])
         ground = shapely.LineString([a, b]).buffer(KEEP_OFF, cap_style="flat")
         if not shapely.intersects(taken, ground):
-            return Width(a, b, arm.width)
+            guessed = ends_guessed([region], arm.axis, (arm.low, arm.high), at)
+            return Width(a, b, arm.width, guessed)
     return None

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from floorcast_app.layers.label_spots import Spot, label_spot, number_spot
 from floorcast_app.layers.source import PlanSource, Rings, rings
 from floorcast_app.selection import Item
+from floorplan_core.exporters.dimensions import ends_guessed
 from floorplan_core.exporters.svg_labels import display_name, is_rectangle
 from floorplan_core.model import Region
 
@@ -28,6 +29,7 @@ class RegionShape:
     short: str  # "3"
     area: float  # m2
     clear: tuple[float, float] | None  # metres, width and depth of a rectangle
+    nearly: tuple[bool, bool]  # of width and depth: True where one goes to a wall that nobody saw
     spot: Spot  # where the text goes
     seat: Spot  # where its number goes where there is room for no more
 
@@ -58,6 +60,7 @@ def _shape(region: Region, source: PlanSource, swept: list[object]) -> RegionSha
         region.name,
         region.area,
         (x1 - x0, y1 - y0) if is_rectangle(region) else None,
+        (ends_guessed([region], 0, (x0, x1)), ends_guessed([region], 1, (y0, y1))),
         label_spot(region.polygon, swept),
         number_spot(region.polygon, swept),
     )

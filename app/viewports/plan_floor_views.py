@@ -27,6 +27,8 @@ from floorcast_app.viewports.plan_frame import (
     plan_pen,
     text_size,
 )
+from floorplan_core.drawing_style import NEARLY
+from floorplan_core.exporters.dimensions import Span
 from floorplan_core.exporters.door_symbols import Leaf
 
 LEADING = 1.3  # line height over text size
@@ -152,7 +154,7 @@ class DimensionsView:
         for row in self.model.rows:
             gap = row_gap(row.level, min(frame.camera.width, frame.camera.height))
             for span in row.spans if gap is not None else ():
-                _paint_span(painter, frame, row, gap or 0.0, span.start, span.end)
+                _paint_span(painter, frame, row, gap or 0.0, span)
         for width in self.model.widths:
             _paint_width(painter, frame, width)
 
@@ -172,9 +174,8 @@ def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int
     units, scale = frame.look.units, frame.camera.scale
     lines = [(tr_text(shape.name), NAME, 600), (format.area(shape.area, units), BODY, 400)]
     if shape.clear is not None:
-        lines.append(
-            (" × ".join(format.length(v, units).removesuffix(" m") for v in shape.clear), SMALL, 400)
-        )
+        pair = zip(shape.clear, shape.nearly, strict=True)
+        lines.append((" × ".join(written(v, units, nearly) for v, nearly in pair), SMALL, 400))
     width, height = shape.spot.width * scale, shape.spot.height * scale
     least = 2 if shape.short.isdecimal() else 1
     for n in range(len(lines), least - 1, -1):
@@ -241,9 +242,15 @@ def _swing_path(leaves: tuple[Leaf, ...]) -> QPainterPath:
     return path
 
 
-def _paint_span(painter: QPainter, frame: Frame, row: Row, gap: float, start: float, end: float) -> None:
+def written(metres: float, units: str, nearly: bool = False) -> str:
+    """A length at a dimension line, its metres understood; one to a guessed wall is only ``nearly`` so."""
+    return (NEARLY if nearly else "") + format.length(metres, units).removesuffix(" m")
+
+
+def _paint_span(painter: QPainter, frame: Frame, row: Row, gap: float, span: Span) -> None:
     """One length of a row."""
-    text = format.length(end - start, frame.look.units).removesuffix(" m")
+    start, end = span.start, span.end
+    text = written(span.length, frame.look.units, span.guessed)
     room = (end - start) * frame.camera.scale
     if text_size(text, SMALL)[0] + AIR > room:
         return
@@ -274,7 +281,7 @@ def _beside(frame: Frame, row: Row, gap: float, along: float) -> tuple[float, fl
 
 def _paint_width(painter: QPainter, frame: Frame, width: Width) -> None:
     """The clear width of an arm, from wall to wall."""
-    text = format.length(width.length, frame.look.units).removesuffix(" m")
+    text = written(width.length, frame.look.units, width.guessed)
     if text_size(text, SMALL)[0] + 2 * AIR > width.length * frame.camera.scale:
         return
     a, b = frame.camera.point(*width.start), frame.camera.point(*width.end)

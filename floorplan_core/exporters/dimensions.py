@@ -20,6 +20,7 @@ Float = NDArray[np.float64]
 
 STRAIGHT = 1e-6  # metres: an edge is square to an axis if its ends differ less
 HIDDEN = 0.02  # metres of a face that may be hidden by others in front of it
+TOUCHING = 1e-4  # metres: a side ends at a corner that is no farther
 SAME = 0.05  # metres: two chains that differ less say the same
 
 
@@ -30,6 +31,7 @@ class Span:
     start: float  # metres along the side
     end: float
     face: float  # metres across: where the face lies
+    guessed: bool = False  # True where it ends at a wall that nobody saw
 
     @property
     def length(self) -> float:
@@ -44,8 +46,49 @@ def chain(regions: Sequence[Region], axis: int, sign: int) -> tuple[Span, ...]:
     """
     edges = _faces(regions, axis, sign)
     rows = np.array(edges).reshape(-1, 3)
-    spans = [Span(a, b, face) for face, a, b in edges if _visible(face, a, b, rows, sign) >= b - a - HIDDEN]
-    return tuple(sorted(set(spans), key=lambda s: (s.start, s.end)))
+    seen = {(face, a, b) for face, a, b in edges if _visible(face, a, b, rows, sign) >= b - a - HIDDEN}
+    walls = _walls(regions, 1 - axis)
+    spans = [Span(a, b, face, _guessed(walls, (a, b), face)) for face, a, b in seen]
+    return tuple(sorted(spans, key=lambda s: (s.start, s.end, s.face)))
+
+
+def ends_guessed(
+    regions: Sequence[Region], axis: int, ends: tuple[float, float], at: float | None = None
+) -> bool:
+    """True where a length along ``axis`` goes to a wall that nobody saw.
+
+    :param ends: metres along ``axis``: where walls square to it lie.
+    :param at: metres across ``axis`` where the walls are looked at; None: anywhere.
+    """
+    return _guessed(_walls(regions, axis), ends, at)
+
+
+def _walls(regions: Sequence[Region], axis: int) -> Float:
+    """(K, 4) sides square to ``axis``: where they lie, their ends across, 1 where nobody saw them."""
+    along = 1 - axis
+    rows = [
+        (s.start[axis], *sorted((s.start[along], s.end[along])), float(s.speculated))
+        for region in regions
+        for s in region.sides
+        if abs(s.start[axis] - s.end[axis]) < STRAIGHT
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4)
+
+
+def _guessed(walls: Float, ends: tuple[float, float], at: float | None) -> bool:
+    for end in ends:
+        here = np.abs(walls[:, 0] - end) < TOUCHING
+        if at is not None:
+            here &= (walls[:, 1] - TOUCHING <= at) & (at <= walls[:, 2] + TOUCHING)
+        if here.any() and walls[here, 3].all():
+            return True
+    return False
+
+
+def overall_span(regions: Sequence[Region], axis: int) -> Span:
+    """The extent along ``axis`` as a stretch of no face."""
+    ends = overall(regions, axis)
+    return Span(*ends, float("nan"), ends_guessed(regions, axis, ends))
 
 
 def overall(regions: Sequence[Region], axis: int) -> tuple[float, float]:

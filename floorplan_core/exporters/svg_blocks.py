@@ -74,6 +74,8 @@ def title_lines(sheet: Sheet, plan: FloorPlan, style: DrawingStyle = PLAIN) -> l
     counts = [style.count(len(plan.regions), "region"), style.count(len(plan.doors), "door")]
     counts += [style.say("storey {}", plan.storey)] if plan.storey else []
     counts.append(style.say("lengths in feet and inches" if style.imperial else "lengths in metres"))
+    if any(side.speculated for region in plan.regions for side in region.sides):
+        counts[-1] += ", " + style.say("≈ to a speculated wall")
     last, height = [style.say("Doors swing by convention")], plan.grid.slice_height
     last += [style.say("slice {} above the floor", style.length(height))] if height > 0 else []
     yaw, support = style.number(math.degrees(plan.frame.yaw), 2), f"{100 * plan.frame.support:.0f}"

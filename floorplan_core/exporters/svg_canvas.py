@@ -38,7 +38,7 @@ def _em(c: str) -> float:
         return NARROW
     if c.isdigit():
         return DIGIT
-    return WIDE if c in "MWmw@%¼½¾" or ord(c) > 0x2E7F else (DIGIT + 0.08 if c.isupper() else USUAL)
+    return WIDE if c in "MWmw@%¼½¾≈" or ord(c) > 0x2E7F else (DIGIT + 0.08 if c.isupper() else USUAL)
 
 
 def printable(text: str) -> str:

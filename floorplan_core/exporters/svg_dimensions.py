@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
-from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, overall
+from floorplan_core.exporters.dimensions import Arm, Span, arms, chain, differs, ends_guessed, overall_span
 from floorplan_core.exporters.sheet import Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
 from floorplan_core.exporters.svg_labels import is_rectangle
@@ -63,8 +63,7 @@ def draw_dimensions(
         for first, second in ((TOP, BOTTOM), (LEFT, RIGHT)):
             one, other = (chain(regions, side.axis, side.sign) for side in (first, second))
             _draw_row(canvas, sheet, first, one, CHAIN_ROW, TEXT, style)
-            start, end = overall(regions, 1 - first.axis)
-            total = [Span(start, end, float("nan"))]
+            total = [overall_span(regions, 1 - first.axis)]
             if differs(other, [*one, *total]):
                 _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT, style)
             if len(one) > 1:
@@ -82,7 +81,8 @@ def _draw_arms(canvas: SvgCanvas, sheet: Sheet, region: Region, taken: Any, styl
             a, b = sheet.to_page(ends if arm.axis == 0 else ends[:, ::-1])
             ground = shapely.LineString([a, b]).buffer(KEEP_OFF, cap_style="flat")
             if abs(b - a).sum() >= SHORTEST and not taken.intersects(ground):
-                _draw_width(canvas, a, b, arm, style.dimension(arm.width))
+                guessed = ends_guessed([region], arm.axis, (arm.low, arm.high), at)
+                _draw_width(canvas, a, b, arm, style.dimension(arm.width, guessed))
                 break
 
 
@@ -108,7 +108,7 @@ def _draw_row(
 ) -> None:
     at = _row(sheet, side, row)
     for span in spans:
-        text = style.dimension(span.length)
+        text = style.dimension(span.length, span.guessed)
         if _text_size(span.length * sheet.mm, text, size) < SMALLEST:
             continue
         a, b = _along(sheet, side, span.start), _along(sheet, side, span.end)

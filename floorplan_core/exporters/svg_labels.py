@@ -9,6 +9,7 @@ import shapely
 
 from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters import palette
+from floorplan_core.exporters.dimensions import ends_guessed
 from floorplan_core.exporters.placement import LEADING, Line, Placed, block_size, place
 from floorplan_core.exporters.sheet import Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas
@@ -52,7 +53,9 @@ def label_lines(region: Region, style: DrawingStyle = PLAIN) -> tuple[Line, ...]
         lines.append(Line(style.say(region.label), NOTE, "note"))
     if is_rectangle(region):
         x0, y0, x1, y1 = region.polygon.bounds
-        lines.append(Line(f"{style.dimension(x1 - x0)} × {style.dimension(y1 - y0)}", NOTE, "note"))
+        across, along = (ends_guessed([region], k, ends) for k, ends in enumerate(((x0, x1), (y0, y1))))
+        clear = f"{style.dimension(x1 - x0, across)} × {style.dimension(y1 - y0, along)}"
+        lines.append(Line(clear, NOTE, "note"))
     return tuple(lines)
 
 
