@@ -21,7 +21,8 @@ from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
-from floorplan_core.geometry.ray_carving import BLOCK, MissMap
+from floorplan_core.geometry.ray_carving import MissMap
+from floorplan_core.geometry.ray_steps import BLOCK
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
 from floorplan_core.memory import free_memory, require_memory

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floorplan_core.geometry import ray_carving
-from floorplan_core.geometry.ray_carving import MOST, MissMap
-from floorplan_core.geometry.ray_steps import ONE, SHIFT
+from floorplan_core.geometry.ray_carving import MissMap
+from floorplan_core.geometry.ray_steps import MOST, ONE, SHIFT
 from floorplan_core.geometry.voxel_keys import BIAS, EMPTY
 
 SIZE = 0.1
