@@ -203,7 +203,11 @@ def _follow(rays, count, blocks, pool, window, used, queues, pair):  # type: ign
                 if singles > _QUEUE - _ROOM:
                     used = _count(single, singles, window, keys, ids, counts, used, 1)
                     singles = 0
-                u, v, w = x + step * rays[_U(_SX + r)], y + step * rays[_U(_SY + r)], z + step * rays[_U(_SZ + r)]
+                u, v, w = (
+                    x + step * rays[_U(_SX + r)],
+                    y + step * rays[_U(_SY + r)],
+                    z + step * rays[_U(_SZ + r)],
+                )
                 single[_U(singles)] = _place(u, v, w, cx, cy, cz, row, column)
                 singles += 1
         i += together
