@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from floorcast_app.actions.registry import Action
 from floorcast_app.icons import icon
 from floorcast_app.translation import tr_action, tr_text
+from floorcast_app.view_state import turned_only
 from floorcast_app.workbench import Workbench
 
 
@@ -32,7 +33,7 @@ class QtActions(QObject):
             workbench.jobs.ended,
             workbench.view.changed,
         ):
-            event.connect(lambda *_: self._soon.start())
+            event.connect(lambda *told: None if turned_only(*told) else self._soon.start())
         self.refresh()
 
     def __getitem__(self, id: str) -> QAction:

@@ -31,6 +31,14 @@ class Look:
     workspace: str = "inspect"  # "inspect", "plan" or "run"
 
 
+def turned_only(*told: object) -> bool:
+    """True where what a listener was told is that the 3D camera was turned: no other pane shows it."""
+    before, after = told if len(told) == 2 else (None, None)
+    if not isinstance(before, Look) or not isinstance(after, Look):
+        return False
+    return replace(before, azimuth=after.azimuth, elevation=after.elevation) == after
+
+
 class ViewState:
     """Holds a :class:`Look` and tells when it changes."""
 

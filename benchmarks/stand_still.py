@@ -2,26 +2,27 @@
 
 On a busy machine a gap is also time in which the window's own thread had no processor: Linux says how long
 it waited for that, and for how long a virtual machine had none at all (100 ms at a time are common); this
-part of a gap is told apart. Where asked, Python's watchdog writes the stacks of all
-threads whenever the loop comes late. It does so without the interpreter lock: whoever holds the lock is seen
-in the call that holds it, but a stack that changes meanwhile may end the program. It is for looking, not for
-measuring.
+part of a gap is told apart. Where asked, a thread looks at the stacks of all others whenever the loop comes
+late. It needs the interpreter lock for that: of a call that holds it, it sees where it ended. (Python's own
+watchdog looks without the lock, and a stack that changes meanwhile ends the program.)
 """
 
 from __future__ import annotations
 
-import faulthandler
 import os
-import tempfile
+import sys
 import threading
 import time
+import traceback
 from dataclasses import dataclass
 from pathlib import Path
+from types import FrameType
 
 from PySide6.QtCore import QObject, QTimer
 
 TICK = 10  # ms between two ticks of the event loop
 LEAST = 60.0  # ms: a shorter gap is not told
+LOOK = 0.005  # s between two looks whether the loop is late
 DEPTH = 7  # calls of a stack that are told
 IDLE = ("threading.py", "thread.py")  # a thread that stands in one of these waits for work
 
@@ -57,15 +58,47 @@ class _Clock:
         return cls(time.perf_counter() * 1000, _stolen(), found)
 
 
-def _brief(dumps: str) -> str:
-    """One line for each thread that does something, for each of the watchdog's dumps."""
-    lines = []
-    for thread in dumps.split("\n\n"):
-        calls = [line.strip() for line in thread.splitlines() if line.strip().startswith("File")]
-        if calls and not calls[0].partition('"')[2].partition('"')[0].endswith(IDLE):
-            told = (call.rpartition("/")[2].replace('", line ', ":") for call in calls[:DEPTH])
-            lines.append("        " + " < ".join(told))
-    return "\n".join(lines)
+def _call(frame: FrameType, line: int) -> str:
+    return f"{Path(frame.f_code.co_filename).name}:{line} in {frame.f_code.co_name}"
+
+
+class _Watchdog(threading.Thread):
+    """Notes the stacks of all threads as long as the loop is late."""
+
+    def __init__(self, least: float) -> None:
+        super().__init__(name="watchdog", daemon=True)
+        self._least = least
+        self._since = time.perf_counter()
+        self._seen: list[str] = []
+        self._ended = threading.Event()
+
+    def tick(self) -> str:
+        """The loop is here: what was seen since it was here last."""
+        self._since = time.perf_counter()
+        seen, self._seen = self._seen, []
+        return "\n".join(dict.fromkeys(seen))
+
+    def end(self) -> None:
+        """Look no more."""
+        self._ended.set()
+        self.join()
+
+    def run(self) -> None:
+        while not self._ended.wait(LOOK):
+            if (time.perf_counter() - self._since) * 1000 > self._least:
+                self._seen += self._stacks()
+
+    def _stacks(self) -> list[str]:
+        """One line for each thread that does something."""
+        lines = []
+        for ident, frame in sys._current_frames().items():
+            calls = list(traceback.walk_stack(frame))[:DEPTH]
+            if ident != self.ident and not calls[0][0].f_code.co_filename.endswith(IDLE):
+                told = (
+                    f"{Path(f.f_code.co_filename).name}:{line} in {f.f_code.co_name}" for f, line in calls
+                )
+                lines.append("        " + " < ".join(told))
+        return lines
 
 
 def _computed(thread: int) -> float:
@@ -98,14 +131,16 @@ class StandStill(QObject):
 
     def __init__(self, least: float = LEAST, stacks: bool = False) -> None:
         super().__init__()
-        self._least, self._with_stacks = least, stacks
+        self._least = least
+        self._watchdog = _Watchdog(least) if stacks else None
         self._gaps: list[Gap] = []
         self._main = threading.get_native_id()
-        self._file = tempfile.TemporaryFile("w+")  # noqa: SIM115 (open as long as the watchdog)
         self._last = _Clock.now()
         self._timer = QTimer(self, interval=TICK)
         self._timer.timeout.connect(self._tick)
         self._timer.start()
+        if self._watchdog is not None:
+            self._watchdog.start()
 
     def take(self) -> list[Gap]:
         """The gaps since the last call, longest first."""
@@ -116,19 +151,17 @@ class StandStill(QObject):
     def stop(self) -> None:
         """Stop watching."""
         self._timer.stop()
-        faulthandler.cancel_dump_traceback_later()
-        self._file.close()
+        if self._watchdog is not None:
+            self._watchdog.end()
 
     def _tick(self) -> None:
-        faulthandler.cancel_dump_traceback_later()
+        stacks = "" if self._watchdog is None else self._watchdog.tick()
         last, now = self._last, _Clock.now()
         self._last = now
         if now.at - last.at >= self._least:
-            self._gaps.append(self._gap(last, now))
-        if self._with_stacks:
-            faulthandler.dump_traceback_later(self._least / 1000, repeat=True, file=self._file)
+            self._gaps.append(self._gap(last, now, stacks))
 
-    def _gap(self, last: _Clock, now: _Clock) -> Gap:
+    def _gap(self, last: _Clock, now: _Clock, stacks: str) -> Gap:
         spent = {}
         for id, (name, computed, waited) in now.threads.items():
             _, before, ready = last.threads.get(id, ("", 0.0, 0.0))
@@ -136,11 +169,4 @@ class StandStill(QObject):
         _, busy, waited = spent.pop(self._main)
         others = tuple((name, computed) for name, computed, _ in spent.values())
         total, stolen = now.at - last.at, now.stolen - last.stolen
-        return Gap(total, min(waited + stolen, total - busy), busy, others, self._stacks())
-
-    def _stacks(self) -> str:
-        self._file.seek(0)
-        text = _brief(self._file.read())
-        self._file.seek(0)
-        self._file.truncate()
-        return text
+        return Gap(total, min(waited + stolen, total - busy), busy, others, stacks)

@@ -11,11 +11,14 @@ import hashlib
 import os
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 _HOMES = ("geometry", "stages", "readers", "simulation")  # the packages that hold kernels
+_OF_SURVEYS = ("geometry", "stages")  # those of them that every survey uses
 _KEPT = 3  # folders of earlier states that stay
 
 
@@ -39,6 +42,55 @@ def kernels_compiled() -> bool:
     """True where an earlier run left compiled kernels of this state of the sources."""
     folder = os.environ.get("NUMBA_CACHE_DIR")
     return folder is not None and next(Path(folder).rglob("*.nbi"), None) is not None
+
+
+def kernels_complete() -> bool:
+    """True where an earlier run compiled all that a usual survey needs, in this state of the sources."""
+    mark = _mark()
+    return mark is not None and mark.exists()
+
+
+def note_complete() -> None:
+    """All that a usual survey needs is compiled."""
+    mark = _mark()
+    if mark is not None:
+        with suppress(OSError):
+            mark.touch()
+
+
+def _mark() -> Path | None:
+    folder = os.environ.get("NUMBA_CACHE_DIR")
+    return None if folder is None else Path(folder) / f"complete-{source_digest()}"
+
+
+def kernel_count() -> int:
+    """About how many kernels a survey needs: those of its stages."""
+    package = Path(__file__).parent
+    sources = (p.read_text(encoding="utf-8") for home in _OF_SURVEYS for p in (package / home).glob("*.py"))
+    return sum(line.startswith("@njit") for text in sources for line in text.splitlines())
+
+
+@contextmanager
+def compilations(tell: Callable[[int], None]) -> Iterator[None]:
+    """Call ``tell`` with the number of our kernels compiled so far after each; perhaps from a thread."""
+    from numba.core import event
+
+    class Counter(event.Listener):  # type: ignore[misc]  # numba has no types
+        def __init__(self) -> None:
+            self.done: set[tuple[str, str]] = set()
+
+        def on_start(self, event: object) -> None:
+            pass
+
+        def on_end(self, event: Any) -> None:
+            function = event.data["dispatcher"].py_func  # often one of numba's own
+            name = function.__module__, function.__qualname__
+            if name[0].startswith(__package__) and name not in self.done:
+                self.done.add(name)
+                tell(len(self.done))
+
+    with event.install_listener("numba:compile", Counter()):
+        yield
 
 
 def on_first_compilation(tell: Callable[[], None]) -> None:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDockWidget, QFrame, QHBoxLayout, QLabel, QScrollA
 
 from floorcast_app import theme
 from floorcast_app.events import Event
+from floorcast_app.view_state import turned_only
 from floorcast_app.workbench import Workbench
 
 GRID = 8  # px: all distances are multiples of it
@@ -35,9 +36,9 @@ class Panel(QWidget):
     def refresh(self) -> None:
         """Show what holds now."""
 
-    def refresh_soon(self, *_: object) -> None:
+    def refresh_soon(self, *told: object) -> None:
         """Refresh when the present burst of events is over, and the panels that were told before have."""
-        if not self._soon.isActive():
+        if not self._soon.isActive() and not turned_only(*told):
             self._soon.start(TURN * len(_waiting()))
 
     def listen(self, *events: Event, then: Callable[..., None] | None = None) -> None:

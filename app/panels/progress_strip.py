@@ -15,6 +15,7 @@ BAR_WIDTH = 160  # px
 LEFT_WIDTH = 96  # px, so that the bar does not dance
 FULL = 1000
 STAGES = {
+    "compile": "Preparing for the first survey (only once)",
     "read": "Reading points",
     "drift": "Correcting the path",
     "frame": "Finding the axes",

@@ -31,7 +31,7 @@ from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import At, Point, Tool
 from floorcast_app.translation import tr
-from floorcast_app.view_state import Look
+from floorcast_app.view_state import Look, turned_only
 from floorcast_app.viewports.cursors import show_cursor
 from floorcast_app.viewports.listening import listen, stop_listening
 from floorcast_app.viewports.plan_builder import Drawing, PlanBuilder
@@ -184,7 +184,7 @@ class PlanCanvas(QWidget):
             if not self._settle.isActive():
                 self._settle.start()
             self.update()
-        else:
+        elif not turned_only(before, after):
             self._refresh()
 
     def _tool_changed(self) -> None:

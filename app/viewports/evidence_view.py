@@ -24,6 +24,7 @@ from floorcast_app.layers.evidence import EvidenceLayer, evidence_layer
 from floorcast_app.selection import Item
 from floorcast_app.theme import Colours
 from floorcast_app.translation import tr, tr_n
+from floorcast_app.view_state import turned_only
 from floorcast_app.viewports.evidence_tracks import (
     paint_gradient,
     paint_histogram,
@@ -117,8 +118,9 @@ class EvidenceView(QWidget):
             self._face = 0
             self._load()
 
-    def _look_changed(self, *_: object) -> None:
-        self.update()
+    def _look_changed(self, *told: object) -> None:
+        if not turned_only(*told):
+            self.update()
 
     def _pointer_moved(self, x: float | None, y: float | None) -> None:
         """The pointer of a plan pane, where it is near the plane."""

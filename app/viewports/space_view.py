@@ -27,7 +27,7 @@ from floorcast_app.rendering.cloud_loader import CloudLoader, CloudMaker, Loaded
 from floorcast_app.rendering.frame_worker import FrameWorker, Stage, Subject
 from floorcast_app.rendering.renderer import Frame, Renderer
 from floorcast_app.selection import Item
-from floorcast_app.translation import tr, tr_n
+from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.plan_camera import framed
 from floorcast_app.viewports.space_buttons import ViewButtons
@@ -264,7 +264,7 @@ class SpaceView(QWidget):
         if w.plan is not None or len(w.points):
             return ""
         if w.jobs.running:
-            return tr_n("%Ln point(s) read so far", len(w.points))
+            return tr("Points appear here as they are read")
         return "" if w.state.survey is not None else tr("Open a survey to see its points here")
 
     # ---- events -----------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for
@@ -71,13 +72,33 @@ def _end_with_window() -> None:
 
 def warm_up(observer: Observer) -> None:
     """Plan the bundled survey: modules are imported and kernels linked when they are first called."""
-    from importlib.resources import files
-
-    from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
+    from floorplan_core.kernel_cache import kernels_complete, use_kernel_cache
 
     use_kernel_cache()
-    if not kernels_compiled():
-        return  # compiling takes a minute: that is for the first survey, which says so
+    if kernels_complete():  # else compiling takes a minute: that is for the first survey, which says so
+        with suppress(errors.Cancelled):  # something is wanted: what was loaded is loaded
+            _plan_sample(observer)
+
+
+def compile_kernels(observer: Observer) -> None:
+    """The first run of a version compiles its kernels, one to two minutes in which it tells how far it is.
+
+    Planning the bundled survey needs nearly all of them; what was compiled when it is given up stays.
+    """
+    from floorplan_core import kernel_cache
+
+    kernel_cache.use_kernel_cache()
+    if kernel_cache.kernels_complete():
+        return
+    observer.stage_started("compile", kernel_cache.kernel_count())
+    with kernel_cache.compilations(lambda done: observer.progress("compile", done)):
+        _plan_sample(Observer(observer.cancel))
+    kernel_cache.note_complete()
+
+
+def _plan_sample(observer: Observer) -> None:
+    from importlib.resources import files
+
     sample = Path(str(files("floorcast_resources").joinpath("sample_survey")))
     config = Config()
     try:
@@ -86,8 +107,10 @@ def warm_up(observer: Observer) -> None:
         session.read(observer)
         session.plan(config, (), observer, 0)
         session.storeys(config)
+    except errors.Cancelled:
+        raise
     except errors.FloorPlanError:
-        return  # something is wanted, or the survey is not there: what was loaded is loaded
+        return  # the survey is not there
 
 
 class _Wanted(CancelToken):
@@ -203,6 +226,7 @@ class _Desk:
         self, number: int, path: Path, trajectory: Path | None, config: Config, names: Names
     ) -> tuple[Reconstruction, bool, Names]:
         self._teller.first = True
+        compile_kernels(self._teller)
         session = PlanningSession.open(path, trajectory, config, self._teller)
         session.begin_with_names(names)
         self._sessions[number] = session

@@ -25,13 +25,6 @@
    </translation>
   </message>
   <message numerus="yes">
-   <source>%Ln point(s) read so far</source>
-   <translation>
-    <numerusform>Bisher %Ln Punkt gelesen</numerusform>
-    <numerusform>Bisher %Ln Punkte gelesen</numerusform>
-   </translation>
-  </message>
-  <message numerus="yes">
    <source>%Ln region(s)</source>
    <translation>
     <numerusform>%Ln Region</numerusform>
@@ -1083,6 +1076,10 @@
    <translation>Es ist keine Wand: Sie begrenzt und trennt keinen Raum.</translation>
   </message>
   <message>
+   <source>It is the other face of a wall</source>
+   <translation>Sie ist die andere Seite einer Wand</translation>
+  </message>
+  <message>
    <source>It reaches above furniture</source>
    <translation>Sie reicht höher als Möbel</translation>
   </message>
@@ -1859,6 +1856,10 @@
    <translation>Punkte über dieser Höhe werden in 3D nicht gezeichnet</translation>
   </message>
   <message>
+   <source>Points appear here as they are read</source>
+   <translation>Die Punkte erscheinen hier, während sie gelesen werden</translation>
+  </message>
+  <message>
    <source>Points are not coloured by {0}; choose: {1}.</source>
    <translation>Punkte werden nicht nach {0} gefärbt; zur Wahl stehen: {1}.</translation>
   </message>
@@ -1913,6 +1914,10 @@
   <message>
    <source>Preferences…</source>
    <translation>Voreinstellungen…</translation>
+  </message>
+  <message>
+   <source>Preparing for the first survey (only once)</source>
+   <translation>Vorbereitung auf die erste Aufnahme (nur einmal)</translation>
   </message>
   <message>
    <source>Presets</source>

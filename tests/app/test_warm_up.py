@@ -6,10 +6,17 @@ import gc
 import subprocess
 import sys
 import threading
+from pathlib import Path
+
+import pytest
 
 from floorcast_app.warm_up import WarmUp, load_without_collecting
 from floorcast_app.workers.planner import LocalPlanner
+from floorcast_app.workers.planning_process import compile_kernels
 from floorcast_app.workers.remote_planner import RemotePlanner
+from floorplan_core.errors import Cancelled
+from floorplan_core.kernel_cache import kernels_complete
+from floorplan_core.observer import Observer
 
 OPENS_AFTERWARDS = """
 import sys
@@ -30,16 +37,57 @@ print(sorted(set(sys.modules) - loaded))
 
 
 def test_a_survey_that_is_opened_afterwards_needs_no_module_more() -> None:
-    from floorplan_core.kernel_cache import kernels_compiled, use_kernel_cache
-
-    use_kernel_cache()
-    if not kernels_compiled():  # then there is no warm-up: make it so
-        from floorcast_app import theme
-        from floorplan_core import process
-
-        process(theme.resource("sample_survey"))
+    compile_kernels(Observer())  # else there is no warm-up
     ran = subprocess.run([sys.executable, "-c", OPENS_AFTERWARDS], capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "[]"
+
+
+def test_the_first_run_tells_how_far_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """An empty cache as it looks from outside: what compiles is a kernel of the test's own."""
+    from numba import njit
+
+    from floorcast_app.workers import planning_process
+
+    told: list[tuple[str, int | None]] = []
+
+    class Told(Observer):
+        def stage_started(self, stage: str, total: int | None = None) -> None:
+            told.append((stage, total))
+
+        def progress(self, stage: str, done: int) -> None:
+            told.append((stage, done))
+
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+
+    def kernel(x):
+        return x + 1
+
+    def compile_some(observer: Observer) -> None:
+        njit(lambda x: x + 2)(1)  # not ours
+        monkeypatch.setattr(kernel, "__module__", "floorplan_core.stages.some")
+        for value in (1, 1.0):  # twice, and counted once
+            compiled(value)
+
+    compiled = njit(kernel)
+    monkeypatch.setattr(planning_process, "_plan_sample", compile_some)
+    compile_kernels(Told())
+    (begun, total), *progress = told
+    assert begun == "compile" and total is not None and total > 50
+    assert progress == [("compile", 1)]
+    told.clear()
+    compile_kernels(Told())
+    assert told == [], "only the first run"
+
+
+def test_giving_up_the_first_run_goes_on_with_it_the_next_time(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    given_up = Observer()
+    given_up.cancel.cancel()
+    with pytest.raises(Cancelled):
+        compile_kernels(given_up)
+    assert not kernels_complete()
 
 
 def test_the_process_that_plans_is_started() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -13,6 +15,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 from floorcast_app import theme
 from floorcast_app.layers.planes import plane_shape
 from floorcast_app.selection import Item
+from floorcast_app.view_state import Look, turned_only
 from floorcast_app.viewports.floor_plan_view import FloorPlanView
 from floorcast_app.viewports.free_space_view import FreeSpaceView
 from floorcast_app.viewports.planes_view import PlanesView
@@ -263,3 +266,23 @@ def test_closing_a_pane_lets_go_of_the_workbench(qtbot, drawn):
     drawn.plan_changed.emit(drawn.plan)
     drawn.view.set(span=5.0)
     assert pane._drawing is before
+
+
+@pytest.mark.parametrize("kind", PANES)
+def test_turning_the_3d_camera_paints_no_plan_anew(qtbot, drawn, kind):
+    pane = opened(qtbot, kind(drawn))
+    pane.grab()
+    painted = pane._base
+    assert painted is not None
+    drawn.view.set(azimuth=drawn.view.look.azimuth + 10.0, elevation=30.0)
+    assert pane._base is painted
+    drawn.view.set(layers=drawn.view.look.layers - {"doors"})
+    assert pane._base is not painted
+    drawn.view.set(layers=drawn.view.look.layers | {"doors"})
+
+
+def test_what_turns_only_the_camera():
+    look = Look()
+    assert turned_only(look, replace(look, azimuth=1.0))
+    assert not turned_only(look, replace(look, azimuth=1.0, span=3.0))
+    assert not turned_only("light") and not turned_only() and not turned_only(None, look)
