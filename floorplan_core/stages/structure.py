@@ -22,6 +22,7 @@ Float = NDArray[np.float64]
 _BEHIND = (0.06, 0.2)  # m behind a face: where the other face of a thin wall is
 _OTHER_FACE = 2  # levels of it that tell a wall from noise
 _WELL_SEEN = 0.7  # m of the height of a patch seen on average: of glass and reveals it is less
+_GOES_ON = (2, 3, 4, 5)  # levels below one: the next belongs to it, as a surface may lie between two
 _BEFORE = 0.25  # of a column: with so much of it before the face it does not tell what is behind
 _LEAF = 1.0  # m: a shorter surface may be the leaf of a door that stands open
 _LARGE = 1.2  # m: no door's leaf is as long
@@ -61,14 +62,22 @@ def judge(
 ) -> list[Judgement]:
     """Structure or furniture, by height reached, contact with the ceiling, and being looked over."""
     ceiling, bits, fine = evidence.frame.ceiling_z, patches.bits, evidence.fine
-    tall = patches.count((bits & ~height_mask(0, config.furniture_height + LEVEL)) != 0)
+    held = _held(bits)
+    tall = patches.count((held & ~height_mask(0, config.furniture_height + LEVEL)) != 0)
     top = np.inf if ceiling is None else max(ceiling - evidence.frame.floor_z - config.ceiling_gap, 1.0)
-    at_top = np.zeros(len(bits), dtype=bool) if ceiling is None else (bits & ~height_mask(0, top)) != 0
+    at_top = np.zeros(len(bits), dtype=bool) if ceiling is None else (held & ~height_mask(0, top)) != 0
     length = fine * patches.lengths
     surely = (tall > 0) & (length > _LEAF) & (patches.area >= _WELL_SEEN * length)
     over = patches.count(_looked_over(evidence, facing, patches, offset, surely))
     numbers = zip(patches.lengths, tall, patches.count(at_top), over, strict=True)
     return [_judgement(fine, *(int(n) for n in four)) for four in numbers]
+
+
+def _held(bits: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Levels of (R,) rows below which the surface goes on. One with nothing below is the ceiling of a room
+    that is lower than the rest, over a cabinet: it lies where the walls of the higher rooms still are."""
+    below = np.bitwise_or.reduce([bits << np.uint64(k) for k in _GOES_ON])
+    return np.asarray(bits & below)
 
 
 def _judgement(fine: float, rows: int, tall: int, at_top: int, looked_over: int) -> Judgement:

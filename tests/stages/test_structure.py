@@ -63,3 +63,24 @@ def _is_structure(
     evidence = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 2.8))
     ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([at]), SegmentsConfig())
     return found
+
+
+@pytest.mark.parametrize(
+    ("top", "structure"),
+    [
+        (1.9, False),  # a cabinet
+        (2.75, True),  # the wall, up to that ceiling
+    ],
+)
+@pytest.mark.parametrize("levels", [1, 2])
+def test_a_ceiling_lower_than_the_rest_makes_no_cabinet_a_wall(top, structure, levels):
+    """A room of 2.75 m beside others of 3 m: its ceiling lies at one level, or at two, above the surface."""
+    free = np.zeros((20, 20), dtype=np.uint64)
+    free[:, [8, 9]] = height_mask(0, 2.7) & ~height_mask(0, top)
+    seen = height_mask(0.2, top) | height_mask(2.8 - 0.1 * levels, 2.8)
+    patch = Patches(
+        *(np.array([0]), np.array([0, 16]), np.arange(16), np.full(16, seen), np.array([16 * 0.1]))
+    )
+    evidence = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 3.0))
+    ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([1.0]), SegmentsConfig())
+    assert found == structure
