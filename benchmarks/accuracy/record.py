@@ -34,6 +34,7 @@ METRICS = (
     Metric("recall_glimpsed", "room recall, glimpsed", 3, 1, 0.8),
     Metric("iou_glimpsed", "room IoU, glimpsed", 3, 1, 0.6),
     Metric("labels", "labels, the paper's", 3, 1, 0.97),
+    Metric("labels_outlines", "labels, the paper's rule on the true outlines", 3, 1),
     Metric("labels_shape", "labels, shape", 3, 1, 0.97),
     Metric("door_precision", "door precision", 3, 1, 0.95, 0.85),
     Metric("door_recall", "door recall", 3, 1, 0.95, 0.85),

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from benchmarks.accuracy.cases import Case
 from benchmarks.accuracy.overlay import draw_overlay
+from benchmarks.accuracy.paper_labels import mislabelled, on_true_outlines
 from benchmarks.accuracy.record import Record, record
 from benchmarks.accuracy.reliability import Keeper, judge
 from benchmarks.accuracy.surveys import cache_folder, cloud, survey_folder
@@ -60,7 +61,14 @@ def run_case(case: Case, config: Config) -> Record:
     plan, file = made
     other = relabelled(file, other_labels(plan, config))
     judged = judge(keeper.apertures(config.doors), plan, truth)
-    return {**head, **record(compare(file, truth), compare(other, truth)), "apertures": judged}
+    report = compare(file, truth)
+    return {
+        **head,
+        **record(report, compare(other, truth)),
+        "labels_outlines": on_true_outlines(truth, config.labels),
+        "mislabelled": mislabelled(report, truth, config.labels),
+        "apertures": judged,
+    }
 
 
 def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> tuple[FloorPlan, PlanFile]:

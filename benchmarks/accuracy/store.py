@@ -45,6 +45,13 @@ are doors or openings in truth (shut ones too). The probabilities were fitted on
 36 surveys that are in neither; in the other column they are used as they are. Doors below
 `doors.min_confidence` are not reported.
 """
+LABELS = """Rooms found whose label by the paper's classifier is wrong, all surveys. The rule is the paper's
+(perimeter below 60 m and turning distance to the square below 1: a room); the last columns are of the true
+outline, and where the rule is wrong about that too, no better plan would help. The turning distance of a
+rectangle to the square is below pi / 4 = 0.785 however long it is, so a straight corridor is a room to the
+rule unless its perimeter reaches 60 m; of a corridor that runs round, only the outer boundary counts, which
+is nearly square. `labels.classifier=shape` asks for doors and ways through instead.
+"""
 
 
 def load() -> list[Record]:
@@ -84,6 +91,7 @@ def write_document(records: Sequence[Record], last: Sequence[Record]) -> None:
     parts += ["\n## Prediction, by how much was seen\n", tables.markdown(tables.exploration(simulated))]
     parts += ["\n## What hurts\n", tables.markdown(tables.factors(simulated))]
     parts += ["\n## Single surveys\n", tables.markdown(tables.surveys(simulated))]
+    parts += ["\n## Labels of the paper's rule\n", LABELS, tables.markdown(tables.mislabelled(records))]
     parts += ["\n## Confidence of doors\n", RELIABILITY, tables.markdown(tables.reliability(simulated))]
     parts += [_failures(records), "\n## The five worst\n", *_pictures(records)]
     DOCUMENT.parent.mkdir(parents=True, exist_ok=True)

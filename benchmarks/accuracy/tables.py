@@ -161,6 +161,25 @@ def reliability(records: Sequence[Record]) -> Table:
     return header, [*rows, ["Brier score", *(cell for score in scores for cell in score)]]
 
 
+def mislabelled(records: Sequence[Record]) -> Table:
+    """The rooms of each survey that carry the wrong label, and what the rule says of their true outlines."""
+    header = ["survey", "room", "is", "called", "by its true outline", "perimeter, m", "turning distance"]
+    rows = [
+        [
+            r["name"],
+            w["room"],
+            w["kind"],
+            w["label"],
+            w["by_outline"],
+            f"{w['perimeter']:.1f}",
+            f"{w['turning']:.2f}",
+        ]
+        for r in records
+        for w in r.get("mislabelled", [])
+    ]
+    return header, rows
+
+
 def markdown(table: Table) -> str:
     """A table of GitHub's Markdown."""
     header, rows = table

@@ -12,14 +12,14 @@ from tests.evaluation.evaluation_cases import perfect_plan, truth
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from benchmarks.accuracy import record, reliability, runner, store, tables
+from benchmarks.accuracy import paper_labels, record, reliability, runner, store, tables
 from benchmarks.accuracy.__main__ import main
 from benchmarks.accuracy.cases import HALVES, Case, chosen_cases, simulated_cases
 from benchmarks.accuracy.overlay import draw_overlay
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.evaluation import compare, parse_plan
-from floorplan_core.evaluation.truth import Truth, TruthDoor
+from floorplan_core.evaluation.truth import Truth, TruthDoor, TruthRoom
 from floorplan_core.evaluation.truths import parse_truth
 from tests.factories import l_corridor
 
@@ -122,6 +122,32 @@ def test_results_survive_and_the_document_names_everything(tmp_path, monkeypatch
     text = (tmp_path / "accuracy.md").read_text()
     for word in ("| room IoU, entered |", "| a | held out |", "- b: No plan: a sphere.", "worst-2.png"):
         assert word in text
+
+
+@pytest.mark.parametrize(("length", "label"), [(6.0, "room"), (27.0, "room"), (29.0, "corridor")])  # 2 m wide
+def test_the_papers_rule_calls_straight_corridors_rooms_up_to_sixty_metres(length, label):
+    import shapely
+
+    corridor = TruthRoom("0", shapely.box(0, 0, length, 2.0), "corridor")
+    config = Config().labels
+    found, perimeter, turning = paper_labels.by_rule(corridor, config)
+    assert found == label
+    assert perimeter == pytest.approx(2 * length + 4)
+    assert turning < 3.1416 / 4
+    assert paper_labels.on_true_outlines(Truth("t", rooms=(corridor,)), config) == (label == "corridor")
+    assert paper_labels.on_true_outlines(Truth("t"), config) is None
+
+
+def test_wrong_labels_are_listed_with_what_the_rule_says_of_the_true_outline():
+    plan, true = perfect()
+    config = Config().labels
+    assert paper_labels.mislabelled(compare(plan, true), true, config) == []
+    turned = {r.id: "corridor" if r.label == "room" else "room" for r in plan.regions}
+    wrong = paper_labels.mislabelled(compare(runner.relabelled(plan, turned), true), true, config)
+    assert [w["room"] for w in wrong] == [r.name for r in true.rooms if r.kind and r.exposure != "hidden"]
+    assert all(w["label"] != w["kind"] for w in wrong)
+    _, rows = tables.mislabelled([entry("a", mislabelled=wrong), entry("b")])
+    assert [row[0] for row in rows] == ["a"] * len(wrong)
 
 
 def test_the_overlay_shows_regions_truth_and_a_missed_room(tmp_path):
