@@ -197,8 +197,10 @@ def _spanned(profile: WallProfile, walls: Float, gap: Aperture, beamless: float)
 
     :param beamless: metres; what is wider and a beam was cut out of the runs.
     """
-    covered = any(start < gap[0] + _JAMB and gap[1] - _JAMB < end for start, end in walls.tolist())
-    if gap[1] - gap[0] > beamless and not covered:
+    common = np.minimum(walls[:, 1], gap[1]) - np.maximum(walls[:, 0], gap[0])
+    reaches = (walls[:, 0] < gap[0] + _JAMB) & (gap[1] - _JAMB < walls[:, 1])
+    covered = reaches | (common >= _SPANNED * (gap[1] - gap[0]))
+    if gap[1] - gap[0] > beamless and not covered.any():
         return False
     a, b = (round((v - profile.start) / profile.step) for v in gap[:2])
     empty = 1.0 - float(is_solid(profile)[a:b].mean())

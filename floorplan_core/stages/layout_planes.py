@@ -31,7 +31,7 @@ _RECESSED = 0.8  # share of a plane that must lie behind another wall to be its 
 _PATCHY = 0.7  # m between patches of floor, where no ray told free space
 _SEEN, _STRONG = 0.12, 0.35  # of the height below 2 m: something was seen, a wall was seen
 _TAIL = (0.25, 0.7)  # m at the end of a wall in which something was seen here and there
-_HOLE = 0.35  # m, too narrow to pass
+_HOLE = 0.4  # m, too narrow to pass
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
 

@@ -238,6 +238,9 @@ def test_a_wide_corner_opening_needs_its_lintel_all_along():
     ((start, end, _),) = found(np.full(80, 0.5))
     assert (start, end) == pytest.approx((1.8, 4.0))
     half = np.arange(80) < 60
+    ((start, end, _),) = found(np.full(80, 0.5), end=3.6)  # beside the far jamb its lintel was not seen
+    assert (start, end) == pytest.approx((1.8, 4.0))
+    assert found(np.full(80, 0.5), end=3.5) == []
     assert found(np.full(80, 0.5), end=1.8) == []  # a beam, which is no part of the wall
     assert not any(b - a > 1.3 for a, b, _ in found(np.where(half, 0.5, 0.0)))  # a lintel over half of it
     assert not any(b - a > 1.3 for a, b, _ in found(np.full(80, 0.5), np.where(half, passed, 0.0)))

@@ -40,6 +40,13 @@ def test_what_was_seen_through_is_open() -> None:
     assert len(runs(parts, through={(4.0, 5.5): 1.0})) == 2
 
 
+def test_a_lintel_that_was_not_seen_beside_its_jambs_is_part_of_the_wall() -> None:
+    parts: Parts = {(2.0, 4.0): 0.9, (6.8, 9.0): 0.9}
+    through: Parts = {(4.0, 6.8): 1.0}
+    assert runs(parts, through, high={(4.35, 6.45): 0.5}) == [pytest.approx([2.0, 9.0])]
+    assert len(runs(parts, through, high={(4.6, 6.2): 0.5})) == 2
+
+
 def test_a_few_returns_beyond_the_end_make_no_wall() -> None:
     """The side of a cabinet beside the wall's end: hits here and there, and nothing between them."""
     assert runs({(2.0, 6.0): 0.9, (6.35, 6.4): 0.22, (6.5, 6.55): 0.15}) == [pytest.approx([2.0, 6.0])]
