@@ -40,6 +40,7 @@ from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.stages.stairs import find_flights, openings
 from floorplan_core.stages.wall_lines import bridge_lines
 from floorplan_core.steps import StageRunner
 
@@ -123,11 +124,13 @@ def lay_out(
         lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
         *(cover, config.cover, *layout),
     )
+    flights = stage.correct("stairs", lambda: find_flights(evidence), evidence)
+    doors = (*doors, *openings(flights, doors))
     found = (planes, segments, doors, grid)
     regions = stage(
         "regions",
-        lambda: build_regions(cover, *found, config.regions),
-        *(cover, *found, config.regions),
+        lambda: build_regions(cover, *found, config.regions, flights),
+        *(cover, *found, config.regions, flights),
     )
     regions, planes, remarks = stage.correct(
         "shapes",

@@ -21,6 +21,7 @@ Float = NDArray[np.float64]
 
 NOMINAL = 0.15  # metres: thickness of a wall of which only one face is known
 TOUCHING = 0.05  # metres: regions nearer than this leave no room for a wall
+ENDS = 0.2  # of a door's width at either end, where a wall across may reach into its line
 PARTY = 0.1  # metres: drawn thickness of a wall between regions that touch
 NEAR = 0.12  # metres: a door this far from the wall that it was found in still cuts it
 PROBE = 0.02  # metres: how far beside a side we look for its inside
@@ -111,7 +112,8 @@ def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
     if door.turn:
         solid, door = shapely.transform(solid, door.in_own), replace(turned := door, turn=0.0)
         return replace(_cut(solid, door, thickness, thickest), door=turned)
-    reach = _box(door.axis, door.offset - thickest, door.offset + thickest, door.start, door.end)
+    start, end = door.start + ENDS * door.width, door.end - ENDS * door.width
+    reach = _box(door.axis, door.offset - thickest, door.offset + thickest, start, end)
     line = shapely.LineString(door.line())
     parts = [p for p in shapely.get_parts(shapely.clip_by_rect(solid, *reach.bounds)) if p.area > 0]
     parts.sort(key=lambda p: (round(p.distance(line), 3), p.bounds))

@@ -33,6 +33,7 @@ from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
+from floorplan_core.stages.stairs import Flight, part_flights
 from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
 from floorplan_core.stages.wall_extensions import WallExtender
 
@@ -50,8 +51,12 @@ def build_regions(
     doors: Sequence[Door],
     grid: OccupancyGrid,
     config: RegionsConfig,
+    flights: Sequence[Flight] = (),
 ) -> tuple[Region, ...]:
-    """The regions in reading order (top to bottom, left to right), without label or turning distance."""
+    """The regions in reading order (top to bottom, left to right), without label or turning distance.
+
+    :param flights: of stairs, each a region of its own.
+    """
     groups = connected_groups(cover.bounds, separators(planes, doors))
     standing = standing_walls(planes, config.wall_support)
     shapes = [
@@ -64,7 +69,9 @@ def build_regions(
     extender = WallExtender(planes, grid, walls.thickness)
     for shape, (rows, _) in zip(shapes, groups, strict=True):
         halves = [half for part in polygons_of(shape) for half in extender.split(part)]
-        rooms = [room for half in halves for room in splitter.split(half)]
+        rooms = [
+            r for half in halves for room in splitter.split(half) for r in part_flights(room, flights, doors)
+        ]
         pieces += [(walls.fit(room), rows) for room in rooms]
     apart = _disjoint(pieces, grid, config.sliver)
     grower = RoomGrower(planes, walls, doors, grid, config.wall_support)

@@ -144,6 +144,15 @@ def test_walls_fill_the_gaps_and_spare_floor_and_doors() -> None:
         assert min(x1 - x0, y1 - y0) == pytest.approx(0.15, abs=1e-6)
 
 
+def test_an_opening_is_as_deep_as_its_wall_where_another_wall_ends_in_it() -> None:
+    """Stairs in a hall: the wall beside them reaches into the line of the opening at their foot."""
+    hall = RoomSpec([(0, 0), (5, 0), (5, 6), (1, 6), (1, 1), (0, 1)])
+    foot = DoorSpec(1, 1.0, 0.1, 1.0, "opening", (0, 1), thickness=0.1)
+    (opening,) = poche(make_plan([hall, RoomSpec((0, 1, 1, 6))], [foot])).openings
+    x0, y0, x1, y1 = opening.bounds
+    assert (x0, x1) == (0.1, 1.0) and y1 - y0 == pytest.approx(0.1, abs=0.01)
+
+
 def test_doors_open_into_rooms_over_free_floor() -> None:
     plan = l_corridor()
     corridor = plan.regions[-1].polygon
