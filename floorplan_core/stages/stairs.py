@@ -139,7 +139,9 @@ def _rising(lines: NDArray[np.int64], cell: float) -> Mask:
     linked = (tops > 0) & (np.roll(tops, -1, axis=1) > 0) & (change >= _FALL) & (change <= _RISE)
     linked[:, -1] = False  # the last cell of a line has no next
     out = np.zeros(lines.shape, dtype=bool)
-    for start, end in runs_of(linked.ravel()).tolist():
+    runs = runs_of(linked.ravel())
+    long = runs[:, 1] - runs[:, 0] > _RISES / _SLOPE[1] / cell - 1
+    for start, end in runs[long].tolist():
         row, first = divmod(start, lines.shape[1])
         rise = tops[row, first : first + end - start + 1]
         rise = rise[: int(np.argmax(rise)) + 1]  # without the landing
