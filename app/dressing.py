@@ -42,8 +42,9 @@ class Dresser(QObject):
         """Begin to change the theme; at once where nobody sees the window yet."""
         app = QApplication.instance()
         assert isinstance(app, QApplication)
-        self.finish()
+        self._steps.clear()  # what is left of an earlier change: this one comes to every piece, too
         if not self._window.isVisible() and not self._sheet:
+            self._window.setUpdatesEnabled(True)
             theme.apply_theme(app, name)
             self._steps.extend(self._more())
             self.finish()

@@ -15,6 +15,7 @@ from floorplan_core.observer import CancelToken, Observer
 Post = Callable[[Callable[[], None]], None]  # runs a function in the main thread, soon
 
 REPORT_EVERY = 0.05  # s between two reports of progress: more would only keep the window busy
+EARLY = 0.05  # of the work: how long the rest takes is not known before
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ class JobObserver(Observer):
         if now - self._told < REPORT_EVERY:
             return
         self._told = now
-        left = (now - self._began) * (self._total - done) / done if self._total and done else None
+        known = self._total is not None and done > EARLY * self._total
+        left = (now - self._began) * (self._total - done) / done if known and self._total else None
         self._report(Progress(stage, done, self._total, left))
 
     def stage_finished(self, stage: str, seconds: float, result: object = None) -> None:
