@@ -74,10 +74,10 @@ def small(metres: float | None, units: str = "m") -> str:
 def angle(degrees: float | None) -> str:
     """An angle in degrees.
 
-    >>> angle(17.234)
-    '17.23°'
+    >>> angle(17.234), angle(-0.001)
+    ('17.23°', '0.00°')
     """
-    return DASH if degrees is None else f"{number(degrees, '.2f')}°"
+    return DASH if degrees is None else f"{number(round(degrees, 2) + 0.0, '.2f')}°"
 
 
 def percent(share: float | None, digits: int = 0) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
 
@@ -30,6 +30,10 @@ class MainToolbar(QToolBar):
         self.setObjectName("toolbar")
         self.setMovable(False)
         self.setIconSize(QSize(ICON, ICON))
+        self._respell = QTimer(
+            self, singleShot=True, interval=0
+        )  # when what stands in it is wider or narrower
+        self._respell.timeout.connect(self.spell)
         for id in ITEMS:
             if id == "|":
                 self.addSeparator()
@@ -91,9 +95,11 @@ class MainToolbar(QToolBar):
 
         def follow(*_: object) -> None:
             shown.setVisible(chooser.wanted)
+            self._respell.start()
 
         self._workbench.plan_changed.connect(follow)
-        follow()
+        chooser.refilled.connect(self._respell.start)
+        shown.setVisible(chooser.wanted)
 
 
 def _spring() -> QWidget:

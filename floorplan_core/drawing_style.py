@@ -107,7 +107,8 @@ class DrawingStyle:
 
     def number(self, value: float, digits: int) -> str:
         """A number with the decimal mark of the language; thousands are parted where they are usual."""
-        return f"{value:{',' if self.imperial else ''}.{digits}f}".translate(MARKS[self.language])
+        rounded = round(value, digits) + 0.0  # no negative zero
+        return f"{rounded:{',' if self.imperial else ''}.{digits}f}".translate(MARKS[self.language])
 
     def short(self, value: float) -> str:
         """A round number, without zeros behind the mark."""

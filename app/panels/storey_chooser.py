@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from floorcast_app.format import length
@@ -12,6 +13,8 @@ from floorcast_app.workbench import Workbench
 
 class StoreyChooser(QComboBox):
     """One entry for each storey, the highest on top as in the building; data: its number."""
+
+    refilled = Signal()  # it holds other words, and may be wider
 
     def __init__(self, workbench: Workbench, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -36,6 +39,7 @@ class StoreyChooser(QComboBox):
             self.clear()
             for number in reversed(texts):
                 self.addItem(texts[number], number)
+            self.refilled.emit()
         self.setCurrentIndex(self.findData(self._workbench.state.storey))
 
     def _text(self, number: int, above: float, units: str) -> str:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMenu, QToolButton
 from pytestqt.qtbot import QtBot
 
 from floorcast_app.main_window import MENU_GROUPS, SUBMENUS, MainWindow
+from floorcast_app.panels.storey_chooser import StoreyChooser
 from floorcast_app.toolbar import SPELT, MainToolbar
 from floorplan_core.plugins import default_registry
 from tests.app.windows import open_window
@@ -85,3 +86,19 @@ def test_an_export_offers_the_chosen_format(
     window.workbench.plan = small_flat()
     export(window.workbench, suffix=".geojson")
     assert [Path(name).suffix for name in offered] == [".geojson"]
+
+
+def test_words_make_room_for_the_storeys(
+    window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window.resize(1280, 800)
+    bar = _toolbar(window)
+    qtbot.waitUntil(lambda: bar.width() == 1280 and len(_spelt(window)) > 4)
+    before = len(_spelt(window))
+    chooser = bar.findChild(StoreyChooser)
+    assert isinstance(chooser, StoreyChooser)
+    monkeypatch.setattr(StoreyChooser, "wanted", True)
+    chooser.addItem("Storey 12, 43.200 m above the lowest one", 12)
+    window.workbench.plan_changed.emit(None)
+    qtbot.waitUntil(lambda: chooser.isVisible() and len(_spelt(window)) < before)
+    assert bar.sizeHint().width() <= bar.width()  # nothing has fallen off its end
