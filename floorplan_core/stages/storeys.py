@@ -129,14 +129,19 @@ def restrict_path(path: Float, frame: ManhattanFrame, storey: Storey) -> Float:
 
 
 def restrict_evidence(evidence: Evidence, storey: Storey) -> Evidence:
-    """Without the free space of the storeys above: their rays lie within the columns, too."""
+    """Without the free space of other storeys: rays of those above lie within the columns, too, and beside a
+    step in the slab so do those of the one below."""
     ny, nx = evidence.shape
     y, x = np.mgrid[0:ny, 0:nx] + 0.5
     centres = np.column_stack([x.ravel(), y.ravel()]) * evidence.cell + evidence.origin
-    levels = (storey.top.at(centres) - evidence.frame.floor_z) / LEVEL
-    count = np.clip(np.nan_to_num(levels, posinf=LEVELS), 0, LEVELS).astype(np.uint64).reshape(ny, nx)
-    below = (np.uint64(1) << count) - np.uint64(1)
-    return replace(evidence, free=evidence.free & below, occupied=evidence.occupied & below)
+
+    def up_to(heights: HeightMap) -> NDArray[np.uint64]:
+        levels = (heights.at(centres) - evidence.frame.floor_z) / LEVEL
+        count = np.clip(np.nan_to_num(levels, posinf=LEVELS), 0, LEVELS).astype(np.uint64)
+        return ((np.uint64(1) << count) - np.uint64(1)).reshape(ny, nx)
+
+    own = up_to(storey.top) & ~up_to(storey.bottom)
+    return replace(evidence, free=evidence.free & own, occupied=evidence.occupied & own)
 
 
 def _only_storey(frame: ManhattanFrame) -> Storey:

@@ -7,10 +7,13 @@ import pytest
 
 from floorplan_core.config import Config
 from floorplan_core.errors import UsageError
-from floorplan_core.model import PointChunk, Reconstruction, Trajectory
+from floorplan_core.geometry.columns import height_mask
+from floorplan_core.model import ManhattanFrame, PointChunk, Reconstruction, Trajectory
 from floorplan_core.model.storey import HeightMap, Storey
 from floorplan_core.pipeline import FloorPlanner, process, process_storeys
+from floorplan_core.stages.storeys import restrict_evidence
 from tests.box_world import room, rotation, stations, survey
+from tests.drawn_cells import seen_free
 
 STEP = 0.04  # m between points: every surfel is hit
 HEIGHT, SLAB = 2.7, 0.3  # m
@@ -98,6 +101,17 @@ def test_a_split_level_house_has_storeys_with_a_step():
     assert found[0].holds(frame.to_manhattan(lower)).all()
     assert found[1].holds(frame.to_manhattan(lower + np.array([0, 0, UP]))).all()
     assert not found[1].holds(frame.to_manhattan(lower)).any()
+
+
+def test_free_space_beside_a_step_belongs_to_the_storey_that_it_lies_in():
+    """The slab lies 1 m higher in the eastern half: up to there it is the lower storey that is free."""
+    step = HeightMap(np.array([[-0.1, 0.9]]), (0.0, 0.0), 1.0)
+    ceiling = HeightMap(np.array([[2.5, 3.5]]), (0.0, 0.0), 1.0)
+    free = np.full((10, 20), height_mask(0, 6.0))
+    seen = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 2.5))
+    kept = restrict_evidence(seen, Storey(1, 0.0, 2.5, step, ceiling)).free
+    assert (kept[:, :10] == height_mask(0, 2.5)).all()
+    assert (kept[:, 10:] == height_mask(0.9, 3.5)).all()
 
 
 def test_two_halves_of_one_storey_are_one():
