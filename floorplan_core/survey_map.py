@@ -38,7 +38,9 @@ _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as mu
 _MANY_RAYS, _STEP = 100e6, 1.2  # bytes of ray counts from which free memory is looked at; and how often
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
-PIECE = 50_000  # points whose rays a thread follows before it asks for more
+PIECE = 50_000  # points at least whose rays a thread follows before it asks for more
+# of a chunk at most: asking needs the interpreter's lock, which the decoder of LAZ holds for 15 to 30 ms
+PIECES = 5
 SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
 
 
@@ -180,12 +182,13 @@ class SurveyMap:
     def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
         seconds = stopwatch()
         points, scan, origins = self._prepared(points, scan, origins)
-        pieces = deque(range(0, len(points), PIECE))
+        piece = max(PIECE, len(points) // PIECES)
+        pieces = deque(range(0, len(points), piece))
 
         def carve(rays: MissMap) -> None:
             while pieces:
                 with suppress(IndexError):  # the other thread took the last one
-                    part = slice(start := pieces.popleft(), start + PIECE)
+                    part = slice(start := pieces.popleft(), start + piece)
                     rays.carve(points[part], scan[part], origins, self._limits)
 
         carving = self._pool.submit(carve, self.rays)
