@@ -62,7 +62,7 @@ def judge(
 ) -> list[Judgement]:
     """Structure or furniture, by height reached, contact with the ceiling, and being looked over."""
     ceiling, bits, fine = evidence.frame.ceiling_z, patches.bits, evidence.fine
-    held = _held(bits)
+    held = _held(bits) if evidence.viewpoints else bits  # else walls are seen in pieces, with holes below
     tall = patches.count((held & ~height_mask(0, config.furniture_height + LEVEL)) != 0)
     top = np.inf if ceiling is None else max(ceiling - evidence.frame.floor_z - config.ceiling_gap, 1.0)
     at_top = np.zeros(len(bits), dtype=bool) if ceiling is None else (held & ~height_mask(0, top)) != 0
