@@ -12,7 +12,8 @@ surfels.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,13 @@ _LEAF = (0.3, 1.8)  # m above the floor, where a leaf and no lintel is
 _LOW = (0.08, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
 _LINTEL = (2.2, 2.6)  # m above the floor: above a door
 _BANDS = (_LEAF, _LOW, _LINTEL)
-_DEPTH = (0.025, 0.125)  # m behind the face at which a leaf hangs; deeper are panes of outer walls
+_DEPTH = (0.025, 0.125)  # m behind the face at which a leaf hangs; deeper are panes, but in inner walls
+_SHIN = (0.3, 0.7)  # m above the floor: below the sill of most windows
+_BOARD, _INNER = 0.03, 0.25  # m, thickness of a leaf, and of the inner walls that hold one
+_ALONG, _FACE = (
+    4.0,
+    1.0,
+)  # m along a wall within which that much of its other face tells that it is an inner one
 _LEVEL, _SHARE = 0.02, 0.6  # m, and share of the leaf's depth: what lies less deep is the wall's face
 _REACH = (0.08, 0.22)  # m before and behind the face whose surfels are looked at
 _FLANK, _JAMB = 0.35, 0.15  # m beside the leaf in which that much wall must stand
@@ -61,11 +68,46 @@ def find_leaves(planes: Sequence[LayoutPlane], evidence: Evidence, config: Doors
     walls = [p for p in planes if len(p.walls)]
     if not evidence.viewpoints or not walls:
         return []
-    return [
-        _leaf(plane, start, end)
-        for plane, profile in zip(walls, depth_profiles(walls, evidence), strict=True)
-        for start, end in recesses(profile, config.min_width)
+    profiles, narrowest = depth_profiles(walls, evidence), config.min_width
+    deep = [_inner_recesses(w, p, planes, narrowest) for w, p in zip(walls, profiles, strict=True)]
+    known = [recesses(profile, narrowest) for profile in profiles]
+    unsure = [k for k in range(len(walls)) if set(deep[k]) - set(known[k])]
+    for k, shin in zip(unsure, _shins([walls[k] for k in unsure], evidence), strict=True):
+        low = np.where(np.isfinite(profiles[k].low), profiles[k].low, shin)
+        sure = recesses(replace(profiles[k], low=low), narrowest, _REACH[1])
+        known[k] = sorted({*known[k], *(set(deep[k]) & set(sure))})
+    return [_leaf(wall, *span) for wall, spans in zip(walls, known, strict=True) for span in spans]
+
+
+def _inner_recesses(
+    plane: LayoutPlane, profile: DepthProfile, planes: Sequence[LayoutPlane], narrowest: float
+) -> list[tuple[float, float]]:
+    """Recesses in walls that are thicker, whatever was seen near the floor; windows are in outer walls."""
+    found = recesses(replace(profile, low=profile.leaf), narrowest, _REACH[1])
+    behind = [q for q in planes if q.facing == plane.facing.opposite]
+    return [s for s in found if _depth(profile, s) + _BOARD < _thickness(plane, s, behind)]
+
+
+def _depth(profile: DepthProfile, span: tuple[float, float]) -> float:
+    a, b = (round((v - profile.start) / profile.step) for v in span)
+    return float(np.median(profile.leaf[a:b]))
+
+
+def _thickness(plane: LayoutPlane, span: tuple[float, float], behind: Sequence[LayoutPlane]) -> float:
+    """Metres to the wall's other face, within a room's width of a recess; 0 where none was seen."""
+    start, end = span[0] - _ALONG, span[1] + _ALONG
+    gaps = [
+        gap
+        for q in behind
+        if 0 < (gap := (plane.offset - q.offset) * plane.facing.sign) <= _INNER
+        and float((np.minimum(q.walls[:, 1], end) - np.maximum(q.walls[:, 0], start)).max(initial=0)) > _FACE
     ]
+    return max(gaps, default=0.0)
+
+
+def _shins(walls: Sequence[LayoutPlane], evidence: Evidence) -> list[Float]:
+    """Depths by plane just above the band near the floor, which a camera seldom sees."""
+    return [of[0] for of in _depths(walls, evidence, (_SHIN,))[1]] if walls else []
 
 
 def unknown_leaves(leaves: Sequence[Door], doors: Sequence[Door], config: DoorsConfig) -> list[Door]:
@@ -92,6 +134,14 @@ def _box(plane: LayoutPlane) -> tuple[float, float, float, float]:
 
 def depth_profiles(walls: Sequence[LayoutPlane], evidence: Evidence) -> list[DepthProfile]:
     """The depths of the surfels that were seen from the side to which each plane looks, by plane."""
+    starts, depths = _depths(walls, evidence, _BANDS)
+    return [DepthProfile(a, evidence.fine, *of) for a, of in zip(starts, depths, strict=True)]
+
+
+def _depths(
+    walls: Sequence[LayoutPlane], evidence: Evidence, bands: Sequence[tuple[float, float]]
+) -> tuple[list[float], list[Any]]:
+    """Where each profile starts along its plane, and its depths in each of the bands of height."""
     starts = [float(plane.walls.min()) - _FLANK for plane in walls]
     ends = [float(plane.walls.max()) + _FLANK for plane in walls]
     faces = Faces(
@@ -104,24 +154,26 @@ def depth_profiles(walls: Sequence[LayoutPlane], evidence: Evidence) -> list[Dep
     boxes = np.array([_box(plane) for plane in walls])
     near = index_boxes(boxes, evidence.origin, evidence.cell, evidence.shape)
     seen = (evidence.xyz, evidence.view)
-    depths = median_depths(faces, near, *seen, np.array(_BANDS), evidence.fine, _SIDEWAYS, _ENOUGH)
-    return [DepthProfile(a, evidence.fine, *of) for a, of in zip(starts, depths, strict=True)]
+    depths = median_depths(faces, near, *seen, np.array(bands), evidence.fine, _SIDEWAYS, _ENOUGH)
+    return starts, list(depths)
 
 
-def recesses(profile: DepthProfile, narrowest: float) -> list[tuple[float, float]]:
+def recesses(
+    profile: DepthProfile, narrowest: float, deepest: float = _DEPTH[1]
+) -> list[tuple[float, float]]:
     """(start, end) metres along the plane where its face stands back between jambs and under a lintel."""
     back = np.nan_to_num(profile.leaf, nan=-1.0) > _DEPTH[0]
     return [
         (profile.start + profile.step * a, profile.start + profile.step * b)
         for a, b in runs_of(back).tolist()
-        if narrowest - profile.step < (b - a) * profile.step <= _WIDEST and _is_leaf(profile, a, b)
+        if narrowest - profile.step < (b - a) * profile.step <= _WIDEST and _is_leaf(profile, a, b, deepest)
     ]
 
 
-def _is_leaf(profile: DepthProfile, a: int, b: int) -> bool:
+def _is_leaf(profile: DepthProfile, a: int, b: int, deepest: float) -> bool:
     """True where the bins from a to b are one flat board in a wall: beside, above, and down to the floor."""
     depth = float(np.median(profile.leaf[a:b]))
-    if depth > _DEPTH[1] or float(np.std(profile.leaf[a + 1 : b - 1])) > _FLAT:
+    if depth > deepest or float(np.std(profile.leaf[a + 1 : b - 1])) > _FLAT:
         return False
     face = min(_LEVEL, _SHARE * depth)
     flank, jamb = round(_FLANK / profile.step), round(_JAMB / profile.step)

@@ -8,8 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from floorplan_core.model import Door, FloorPlan
-from floorplan_core.stages.shut_doors import DepthProfile, recesses
+from floorplan_core.config import DoorsConfig
+from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane
+from floorplan_core.stages.shut_doors import DepthProfile, _inner_recesses, recesses
 from tests.box_world import EYE, HEIGHT, LINTEL, Box, run, survey, two_rooms
 
 THICK = 0.16
@@ -106,3 +107,30 @@ def test_a_flush_leaf_is_wall():
 
 def test_without_viewpoints_nothing_is_claimed():
     assert shut_doors(leaf(), trajectory=False) == ()
+
+
+@pytest.mark.parametrize(
+    ("depth", "thick", "along", "found"),
+    [
+        (0.14, 0.19, 0.0, True),  # deeper than a pane may lie, in an inner wall
+        (0.14, 0.19, 8.0, False),  # its other face was seen elsewhere only
+        (0.14, 0.40, 0.0, False),  # an outer wall, and a pane
+        (0.18, 0.19, 0.0, False),  # the other face itself, through a gap
+    ],
+)
+def test_in_inner_walls_leaves_may_be_deep_and_hidden_near_the_floor(depth, thick, along, found):
+    plane = LayoutPlane("a", Facing.EAST, 4.0, walls=np.array([[1.0, 4.0]]))
+    other = LayoutPlane("b", Facing.WEST, 4.0 - thick, walls=np.array([[1.0, 2.1]]) + along)
+    seen = replace(profile(depth), low=np.full(60, np.nan))
+    places = _inner_recesses(plane, seen, [plane, other], DoorsConfig().min_width)
+    assert places == ([pytest.approx((2.0, 2.9), abs=1e-6)] if found else [])
+
+
+@pytest.mark.parametrize("both_sides", [True, False])
+def test_a_leaf_behind_low_things_is_told_from_a_window_where_the_wall_is_an_inner_one(both_sides):
+    bench = (3.5, START - 0.2, 0.0, 3.95, END + 0.2, 0.32)
+    places = [*PLACES, *((x + 4.0, y, z) for x, y, z in PLACES if both_sides)]
+    boxes = [*two_rooms((START, END, LINTEL), thick=THICK), leaf(), bench]
+    result = run(survey(boxes, places, rays=(200, 70)))
+    assert result.plan is not None, result.error
+    assert sum(d.shut for d in result.plan.doors) == both_sides
