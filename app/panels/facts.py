@@ -41,6 +41,7 @@ EVIDENCE = {  # the stages' words of evidence as sentences
     "long, top not seen": "It is long, and its top was not seen",
     "low": "It is low",
     "other face of a wall": "It is the other face of a wall",
+    "in line with a wall": "It lies in line with a wall",
     "straight boundary of free space": "Free space ends there along a straight line",
 }
 

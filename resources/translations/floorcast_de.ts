@@ -1080,6 +1080,10 @@
    <translation>Sie ist die andere Seite einer Wand</translation>
   </message>
   <message>
+   <source>It lies in line with a wall</source>
+   <translation>Sie liegt in einer Linie mit einer Wand</translation>
+  </message>
+  <message>
    <source>It reaches above furniture</source>
    <translation>Sie reicht höher als Möbel</translation>
   </message>
