@@ -12,6 +12,7 @@ import logging
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorplan_core.exporters.dimensions import Span, chain, overall
+from floorplan_core.exporters.dimensions import Span, chain, overall_span
 from floorplan_core.exporters.door_symbols import Leaf, swings
 from floorplan_core.exporters.svg_labels import display_name
 from floorplan_core.exporters.walls import poche, predicted_floor
@@ -159,8 +160,8 @@ class _Drawing:
             for span in chain(self.plan.regions, axis, sign):
                 self._dimension(span, axis, across + sign * ROW)
             if sign > 0:
-                start, end = overall(self.plan.regions, 1 - axis)
-                self._dimension(Span(start, end, across), axis, across + 2 * sign * ROW)
+                whole = replace(overall_span(self.plan.regions, 1 - axis), face=across)
+                self._dimension(whole, axis, across + 2 * sign * ROW)
 
     def draw_title(self) -> None:
         """What it is, and how to read it; below the plan."""
@@ -246,7 +247,7 @@ class _Drawing:
         entity.set_placement(at.tolist(), align=alignment)
 
     def _dimension(self, span: Span, axis: int, across: float) -> None:
-        """An aligned dimension between the ends of ``span``, its line at ``across``; manhattan frame."""
+        """A dimension between the ends of ``span``, its line at ``across``; ≈ where an end is guessed."""
         faces = np.array([[span.start, span.face], [span.end, span.face]])
         line = np.array([[(span.start + span.end) / 2, across]])
         points = np.vstack([faces, line])
@@ -257,6 +258,7 @@ class _Drawing:
             a.tolist(),
             b.tolist(),
             angle=round((turn + 90) % 180 - 90, 6),
+            text="≈<>" if span.guessed else "<>",
             dimstyle=STYLE,
             dxfattribs={"layer": "A-ANNO-DIMS"},
         )

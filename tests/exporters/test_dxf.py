@@ -102,6 +102,12 @@ def test_dimensions_measure_the_rooms(yaw: float) -> None:
     assert _measured(document) == pytest.approx([3, 3, 3, 4, 4, 4], abs=2e-3)
 
 
+def test_a_length_to_a_wall_that_nobody_saw_is_only_about_right() -> None:
+    plan = make_plan([RoomSpec((0, 0, 4, 3), seen=0.5, guessed=frozenset({"west"}))])
+    texts = {(round(d.get_measurement()), d.dxf.text) for d in read(plan).modelspace().query("DIMENSION")}
+    assert texts == {(4, "≈<>"), (3, "<>")}
+
+
 def test_names_and_areas_are_written() -> None:
     texts = {t.dxf.text for t in read(small_flat()).modelspace().query('TEXT[layer=="A-AREA-IDEN"]')}
     assert {"Living & dining", "14.28 m2", "room, 100 % seen"} <= texts
