@@ -85,6 +85,8 @@ def find_segments(
             named = replace(segment, id=f"s{len(segments) + 1}")
             segments.append(named)
             rows[named.id] = row
+    if not evidence.viewpoints:  # which way a face looks is a guess there: a cabinet's front has two
+        return tuple(segments), rows
     return other_faces(segments, config.furniture_height), rows
 
 

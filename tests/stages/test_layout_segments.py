@@ -198,3 +198,12 @@ def test_segments_and_rows_are_in_order_and_named():
         assert 0 <= s.z_min < s.z_max
         assert len(rows[s.id].row) == len(rows[s.id].bits) > 0
         assert np.bitwise_count(rows[s.id].bits).sum() * 0.05 * 0.1 == pytest.approx(s.area)
+
+
+@SENSORS
+def test_two_faces_make_a_wall_only_where_it_was_seen_which_way_they_look(trajectory):
+    """A screen, 15 cm thick and 2.2 m high, with air above it."""
+    screen = (1.9, 1.5, 0.0, 2.05, 3.5, 2.2)
+    result = run(survey([*room(4, 5), screen], stations(4, 5)), trajectory=trajectory)
+    known = [s for s in _segments(result) if "other face of a wall" in s.evidence]
+    assert sorted(s.facing for s in known) == ([Facing.EAST, Facing.WEST] if trajectory else [])
