@@ -21,6 +21,7 @@ _SOLID = 0.12  # of the height below 2 m, seen: something stands there
 _PASSED = 1.0  # m of an open stretch through which free space was seen
 _JAMB = 0.1  # m from the edge of a door, where its jamb is wall
 _BESIDE = 4.0  # m of unseen wall between a door and the next corner
+_EXACT = 1e-6  # m
 _TOUCH = 0.3  # m beyond the end of the other wall
 
 
@@ -54,7 +55,7 @@ def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
 
 
 def close_beside_doors(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> tuple[LayoutPlane, ...]:
-    """Wall on both sides of each door, up to the next crossing wall: a door is cut into a wall.
+    """Wall on both sides of each door, up to the next door or crossing wall: a door is cut into a wall.
 
     Of the wall beside a door nothing may have been seen, behind furniture or at too flat an angle; where free
     space passes it, it is none.
@@ -64,11 +65,23 @@ def close_beside_doors(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> 
     for plane in planes:
         meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
         mine = [d for d in doors if plane.id in d.planes]
-        tips = [(_tip(jamb, k, plane.walls), k) for d in mine for jamb, k in ((d.start, -1), (d.end, 1))]
-        stubs = [sorted((tip, _reach(plane, tip, k, meets, _BESIDE))) for tip, k in tips]
+        stubs = [_stub(plane, jamb, k, meets, mine) for d in mine for jamb, k in ((d.start, -1), (d.end, 1))]
         more = [(a, b) for a, b in stubs if b > a]
         out.append(replace(plane, walls=_joined([*plane.walls.tolist(), *more])) if more else plane)
     return tuple(out)
+
+
+def _stub(
+    plane: LayoutPlane, jamb: float, sign: int, meets: Float, doors: Sequence[Door]
+) -> tuple[float, float]:
+    """Start and end of the unseen wall beside a jamb; of no length where there is none, or a door is next."""
+    tip = _tip(jamb, sign, plane.walls)
+    edges = np.array([d.start if sign > 0 else d.end for d in doors])
+    ahead = edges[(edges - tip) * sign > -_EXACT]
+    if len(ahead) and float(np.abs(ahead - tip).min()) <= _EXACT:
+        return tip, tip
+    end = _reach(plane, tip, sign, np.concatenate([meets, ahead]), _BESIDE)
+    return (tip, end) if sign > 0 else (end, tip)
 
 
 def _tip(jamb: float, sign: int, runs: Float) -> float:

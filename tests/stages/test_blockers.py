@@ -99,3 +99,18 @@ def test_a_door_is_cut_into_a_wall_that_goes_on_to_the_corner(run, passed, close
     found = close_beside_doors([plane, *others], [door])[0].walls
     assert np.allclose(found, closed)
     assert close_beside_doors([plane, *others], [])[0] is plane
+
+
+@pytest.mark.parametrize(
+    ("runs", "closed"),
+    [
+        ([(6.9, 7.0), (8.0, CORNER)], [(5.0, 7.0), (8.0, CORNER)]),  # unseen between the doors
+        ([(5.0, 7.0), (8.0, CORNER)], [(5.0, 7.0), (8.0, CORNER)]),  # the wall ends at the next door already
+    ],
+)
+def test_the_wall_beside_a_door_ends_at_the_next_door(runs: Runs, closed: Runs) -> None:
+    profile = WallProfile(0.0, STEP, *np.zeros((3, 240)))
+    plane = LayoutPlane("a", Facing.EAST, 4.0, profile=profile, support=5.0, walls=np.array(runs))
+    doors = [Door("d", ("a",), 0, 4.0, 7.0, 8.0), Door("added", ("a",), 0, 4.0, 4.0, 5.0, by_hand="added")]
+    found = close_beside_doors([plane, across(4.0, GOES_ON), across(CORNER, GOES_ON)], doors)[0].walls
+    assert np.allclose(found, closed)
