@@ -98,7 +98,7 @@ class _Drawing:
         import ezdxf
         from ezdxf import units
 
-        self.plan = plan
+        self.plan, self.walls = plan, poche(plan)
         self.document = ezdxf.new("R2010", units=units.M)
         self.document.linetypes.add("DASHED", DASH, description="Predicted __ __ __")
         for name, colour, dashed in LAYERS:
@@ -133,16 +133,15 @@ class _Drawing:
 
     def draw_walls(self) -> None:
         """Seen walls filled, guessed ones in dashes."""
-        walls = poche(self.plan)
-        for part in _polygons(walls.observed):
+        for part in _polygons(self.walls.observed):
             self._outline(part, "A-WALL")
-        self._hatch(walls.observed, "A-WALL-PATT", lines=False)
-        for part in _polygons(walls.guessed):
+        self._hatch(self.walls.observed, "A-WALL-PATT", lines=False)
+        for part in _polygons(self.walls.guessed):
             self._outline(part, "A-WALL-PRED")
 
     def draw_doors(self) -> None:
         """Leaves with their swing; openings as their two faces."""
-        openings = poche(self.plan).openings
+        openings = self.walls.openings
         for opening, leaves in zip(openings, swings(openings, self.plan.regions), strict=True):
             for leaf in leaves:
                 self._leaf(leaf)

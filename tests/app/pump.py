@@ -45,3 +45,12 @@ def make_workbench() -> Workbench:
 def settle(workbench: Workbench) -> None:
     """Let the running job end, and do all that it posted."""
     workbench.pump.run_until(lambda: not workbench.jobs.running)  # type: ignore[attr-defined]
+
+
+def planned(folder: Path) -> Workbench:
+    """A workbench with the survey of ``folder`` and its plan."""
+    workbench = make_workbench()
+    workbench.open_survey(folder)
+    settle(workbench)
+    assert workbench.plan is not None, workbench.ui.told  # type: ignore[attr-defined]
+    return workbench

@@ -8,25 +8,23 @@ import pytest
 from floorcast_app.actions.naming import about
 from floorcast_app.selection import Item
 from floorcast_app.workbench import Workbench
-from tests.app.pump import make_workbench, settle
+from tests.app.pump import planned, settle
 from tests.app.surveys import write_campus
 
 
 @pytest.fixture(scope="module")
-def planned(tmp_path_factory: pytest.TempPathFactory) -> Workbench:
-    bench = make_workbench()
-    bench.open_survey(write_campus(tmp_path_factory.mktemp("campus")))
-    settle(bench)
-    assert bench.plan is not None and len(bench.plan.regions) == 4, bench.ui.told
+def campus(tmp_path_factory: pytest.TempPathFactory) -> Workbench:
+    bench = planned(write_campus(tmp_path_factory.mktemp("campus")))
+    assert len(bench.plan.regions) == 4
     return bench
 
 
 @pytest.fixture
-def bench(planned: Workbench):
+def bench(campus: Workbench):
     """The workbench as it was planned; corrections are undone."""
-    yield planned
-    planned.document.go_to(0)
-    settle(planned)
+    yield campus
+    campus.document.go_to(0)
+    settle(campus)
 
 
 def rooms(bench: Workbench, large: bool) -> list:

@@ -25,7 +25,7 @@ from floorcast_app.workbench import Workbench
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.model import Door, LayoutPlane, Region
 from floorplan_core.model.layout import turned
-from tests.app.pump import make_workbench, settle
+from tests.app.pump import make_workbench, planned, settle
 from tests.app.surveys import write_wing
 from tests.plan_invariants import assert_doors, assert_flags
 
@@ -37,22 +37,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def planned(folder: Path) -> Workbench:
-    bench = make_workbench()
-    bench.open_survey(folder)
-    settle(bench)
-    assert bench.plan is not None and len(bench.plan.wings) == 1, bench.ui.told
+def wing(folder: Path) -> Workbench:
+    bench = planned(folder)
+    assert len(bench.plan.wings) == 1
     return bench
 
 
 @pytest.fixture
-def bench(planned: Workbench):
+def bench(wing: Workbench):
     """The workbench as it was planned; corrections are undone."""
-    yield planned
-    planned.document.go_to(0)
-    settle(planned)
-    planned.selection.select(None)
-    planned.set_tool("select")
+    yield wing
+    wing.document.go_to(0)
+    settle(wing)
+    wing.selection.select(None)
+    wing.set_tool("select")
 
 
 def chamber(bench: Workbench) -> Region:
