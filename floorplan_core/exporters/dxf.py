@@ -72,6 +72,8 @@ def dxf_text(plan: FloorPlan) -> str:
         drawing.draw_doors()
         drawing.draw_dimensions()
         drawing.draw_title()
+        for kind in sorted({entity.dxftype() for entity in drawing.document.entitydb.values()}):
+            drawing.document.classes.add_class(kind)  # else in the order of a set, which changes by the run
         stream = io.StringIO()
         drawing.document.write(stream)
     return stream.getvalue()

@@ -14,7 +14,7 @@ polygons. Cost: guessed sides times walls.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import as_rectangle, polygons_of
+from floorplan_core.geometry.summed_area import first_cells
 from floorplan_core.model import FREE, Door, Facing, LayoutPlane, OccupancyGrid, RegionSide
 from floorplan_core.stages.region_sides import KnownSides, WallSurfaces
 from floorplan_core.stages.walls_ahead import DEEP, ON, WALL, WallsAhead
@@ -265,14 +266,18 @@ class RoomGrower:
             on_plane = bool((np.abs(self._offsets[facing] - side.start[a]) < ON).any())
             if not (on_plane and side.observed > 0):
                 low, high = sorted((side.start[1 - a], side.end[1 - a]))
-                front = Frontier(facing, side.start[a], low, high, on_plane)
-                yield replace(front, borrowed=False) if on_plane and self._is_crossed(front) else front
+                yield Frontier(facing, side.start[a], low, high, on_plane)
 
     def _is_crossed(self, front: Frontier) -> bool:
         """True where much of what lies just beyond a side was seen free: there is no wall."""
-        part, grid = front.ahead(_JUST), self._grid
-        window, inside = polygon_window(part, grid.origin, grid.cell, grid.states.shape)
-        return bool(np.count_nonzero(grid.universe[window] & inside) > _CROSSED * inside.sum() > 0)
+        a, grid = front.facing.axis, self._grid
+        ends = np.empty((2, 2))  # x and y; from, to
+        ends[a] = sorted((front.at, front.at + front.out * _JUST))
+        ends[1 - a] = front.low, front.high
+        first = [first_cells(ends[k], float(grid.origin[k]), grid.cell) for k in (0, 1)]
+        x, y = (slice(*np.maximum(cells, 0).tolist()) for cells in first)
+        cells = grid.universe[y, x]
+        return bool(np.count_nonzero(cells) > _CROSSED * cells.size > 0)
 
     def _depth(self, front: Frontier, polygon: Any, others: Neighbours) -> float:
         """Metres by which a side goes out; 0 where it stays."""
@@ -281,7 +286,7 @@ class RoomGrower:
             return 0.0
         reach = self._before_regions(front, others, reach)
         reach = reach.within(self._to_own_side(front, polygon), _REACH)
-        if front.borrowed:
+        if front.borrowed and not self._is_crossed(front):
             return self._strip(front, reach.stop) if reach.stop <= reach.limit else 0.0
         if reach.stop <= reach.limit:
             return reach.stop

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -118,6 +121,24 @@ def test_same_plan_same_bytes(tmp_path: Path) -> None:
         DxfExporter().write(l_corridor(), tmp_path / name)
     assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
     assert not ezdxf.options.write_fixed_meta_data_for_testing
+
+
+def test_same_bytes_whatever_order_sets_have() -> None:
+    code = "from tests.factories import small_flat; from floorplan_core.exporters.dxf import dxf_text\n"
+    code += "from zlib import crc32; print(crc32(dxf_text(small_flat()).encode()))"
+    root = Path(__file__).resolve().parents[2]
+    written = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            cwd=root,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "4")
+    }
+    assert len(written) == 1
 
 
 def test_a_plan_without_rooms_is_a_title() -> None:
