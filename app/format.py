@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-METRES_PER_FOOT = 0.3048
+from floorplan_core.drawing_style import METRES_PER_FOOT
+
 SQUARE_FEET_PER_M2 = 1 / METRES_PER_FOOT**2
 INCH_FRACTION = 16  # a sixteenth is what a tape shows
 DASH = "–"

@@ -46,6 +46,7 @@ from floorcast_app.viewports.plan_frame import (
 )
 from floorcast_app.viewports.plan_observed_views import plane_colour
 from floorcast_app.workbench import Workbench
+from floorplan_core.drawing_style import METRES_PER_FOOT
 from floorplan_core.model import Door
 
 LEFT, RIGHT, TOP, BOTTOM, GAP = 44.0, 14.0, 52.0, 34.0, 10.0  # pixels around and between the tracks
@@ -221,7 +222,7 @@ class EvidenceView(QWidget):
         self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
     ) -> None:
         """Metres along the plane: a grid over all tracks, numbers below."""
-        unit = format.METRES_PER_FOOT if self.workbench.view.look.units == "ft-in" else 1.0
+        unit = METRES_PER_FOOT if self.workbench.view.look.units == "ft-in" else 1.0
         low, high = self._shown
         width = tracks[0].width()
         step = max(round_length((high - low) / unit * TICKS / width) * 2, 0.1) * unit

@@ -13,6 +13,7 @@ from floorcast_app import format
 from floorcast_app.layers.dimensions import WRITING, Row, row_gap
 from floorcast_app.layers.source import PlanSource
 from floorcast_app.viewports.plan_frame import SMALL, Frame, colour, draw_text, pen, round_length, text_size
+from floorplan_core.drawing_style import METRES_PER_FOOT
 
 Shapes = np.ndarray[tuple[int], np.dtype[np.object_]]  # shapely
 
@@ -62,7 +63,7 @@ def scale_place(
 
 def bar_length(frame: Frame, longest: float = BAR) -> tuple[float, float]:
     """Of the scale bar: metres or feet, and pixels."""
-    unit = format.METRES_PER_FOOT if frame.look.units == "ft-in" else 1.0
+    unit = METRES_PER_FOOT if frame.look.units == "ft-in" else 1.0
     value = round_length(longest / frame.camera.scale / unit)
     return value, value * unit * frame.camera.scale
 

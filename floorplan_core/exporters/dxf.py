@@ -192,9 +192,7 @@ class _Drawing:
 
     def _angle(self) -> float:
         """Degrees of the plan's x axis in the world, so that text along the walls is read from below."""
-        a, b = self.plan.to_world(np.array([[0.0, 0.0], [1.0, 0.0]]))
-        turn = math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
-        return round((turn + 90) % 180 - 90, 6)
+        return _slope(*self.plan.to_world(np.array([[0.0, 0.0], [1.0, 0.0]])))
 
     def _outline(self, polygon: Any, layer: str) -> None:
         for ring in (polygon.exterior, *polygon.interiors):
@@ -253,17 +251,22 @@ class _Drawing:
         line = np.array([[(span.start + span.end) / 2, across]])
         points = np.vstack([faces, line])
         a, b, base = self._to_world(points if axis == 1 else points[:, ::-1])
-        turn = math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
         dimension = self.space.add_linear_dim(
             base.tolist(),
             a.tolist(),
             b.tolist(),
-            angle=round((turn + 90) % 180 - 90, 6),
+            angle=_slope(a, b),
             text="≈<>" if span.guessed else "<>",
             dimstyle=STYLE,
             dxfattribs={"layer": "A-ANNO-DIMS"},
         )
         dimension.render()
+
+
+def _slope(a: Float, b: Float) -> float:
+    """Degrees from -90 to 90 of a line in the world, whichever way it runs."""
+    turn = math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
+    return round((turn + 90) % 180 - 90, 6)
 
 
 def _polygons(area: Any) -> list[Any]:
