@@ -46,6 +46,7 @@ MENU_WORDS = {
     "measure": "Measure",
     "help": "Help",
 }
+MENU_ICONS = {"file": "file", "view": "eye", "measure": "ruler"}  # of actions that have none of their own
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ class Palette(QFrame):
         self._shown = found(self._commands, typed)
         self.list.clear()
         for command in self._shown:
-            item = QListWidgetItem(icon(command.icon or "chevron-right", theme.colours().muted), command.text)
+            item = QListWidgetItem(icon(command.icon, theme.colours().muted), command.text)
             item.setData(DETAIL_ROLE, command.detail)
             item.setSizeHint(QSize(0, ROW_HEIGHT))
             self.list.addItem(item)
@@ -162,12 +163,12 @@ def show(window: MainWindow) -> Palette:
 
 def _of_action(workbench: Workbench, action: Action) -> Command:
     text, _ = tr_action(action)
-    menu = tr(MENU_WORDS[action.id.partition(".")[0]])
+    menu = action.id.partition(".")[0]
     first = action.shortcut.split(" | ")[0]
     keys = QKeySequence(first).toString(QKeySequence.SequenceFormat.NativeText)
-    return Command(
-        f"{menu}: {text.rstrip('…')}", keys, action.icon, lambda: workbench.try_run(action.id), action.id
-    )
+    title = f"{tr(MENU_WORDS[menu])}: {text.rstrip('…')}"
+    drawn = action.icon or MENU_ICONS.get(menu, "chevron-right")
+    return Command(title, keys, drawn, lambda: workbench.try_run(action.id), action.id)
 
 
 def _asker(workbench: Workbench, name: str) -> Callable[[], object]:
@@ -177,5 +178,4 @@ def _asker(workbench: Workbench, name: str) -> Callable[[], object]:
 def _needs_nothing(action: Action) -> bool:
     """True where the action can be run with no argument but the workbench."""
     parameters = list(signature(action.run).parameters.values())[1:]
-    free = (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)
-    return all(p.default is not Parameter.empty or p.kind in free for p in parameters)
+    return all(p.default is not Parameter.empty for p in parameters)

@@ -85,11 +85,12 @@ class Screenshot(Dialog):
         except FloorPlanError as error:
             self.preview.setText(str(error))
             return
+        share *= self.devicePixelRatioF()
         size = QSize(max(1, round(width * share)), max(1, round(height * share)))
         smooth = Qt.TransformationMode.SmoothTransformation
-        self.preview.setPixmap(
-            QPixmap.fromImage(image.scaled(size, Qt.AspectRatioMode.KeepAspectRatio, smooth))
-        )
+        small = QPixmap.fromImage(image.scaled(size, Qt.AspectRatioMode.KeepAspectRatio, smooth))
+        small.setDevicePixelRatio(self.devicePixelRatioF())
+        self.preview.setPixmap(small)
 
     # ---- inside -----------------------------------------------------------------------------------------
 

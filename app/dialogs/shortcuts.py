@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 COLUMNS = 3
 LONGEST_KEYS = 18  # characters of a shortcut that stands beside what it does
 KEYS_WIDTH = 128  # px
+WIDTH = 1040  # px of the sheet
 GESTURES = (
     ("Click", "Select; with Ctrl add to the selection"),
     ("Double click", "Bring it into view"),
@@ -53,14 +54,16 @@ class ShortcutsSheet(Dialog):
             layout.addStretch(1)
             line.addLayout(layout, 1)
         self.body.addWidget(label(tr("Shortcuts and gestures"), "heading"))
-        self.body.addWidget(scrolling(inner), 1)
+        self._inner, self._area = inner, scrolling(inner)
+        self.body.addWidget(self._area, 1)
         self.add_close(tr("Close"))
-        self.resize(1040, 660)
 
     def open_over(self, parent: QWidget) -> None:
-        size = self.size()
+        self.ensurePolished()
+        around = self.sizeHint().height() - self._area.sizeHint().height()
+        tall = self._inner.sizeHint().height() + around
+        self.setMinimumSize(WIDTH, min(tall, parent.height() - 8 * GRID))
         super().open_over(parent)
-        self.resize(size)
 
 
 def groups(workbench: Workbench) -> list[tuple[str, list[tuple[str, str]]]]:

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
-ASPECT = 2.4  # width over height of a block of name and area
+ASPECT = 2.4  # width over height of a block of name and area, which then takes what room there is
 GRID = 9  # candidate spots per side of the region's bounds
 HALVINGS = 7  # of the search for the largest block: 1 % of the region
 NEARLY = 0.8  # a spot nearer to the middle is taken if it has this share of the largest one's room
-TURN = 1.6  # how much more room text needs to be turned: level text reads better
+TURN = 2.0  # how much more room text needs to be turned: level text reads better
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def label_spot(polygon: Any, keep_off: Sequence[Any] = ()) -> Spot:
     shapely.prepare(free)
     spots = _candidates(free, polygon)
     level, upright = (_best(free, spots, ratio) for ratio in (ASPECT, 1 / ASPECT))
-    if level.height * TURN >= upright.width:
+    if level.width * TURN >= upright.height:
         return level
     return Spot(upright.x, upright.y, upright.height, upright.width, True)
 
@@ -95,4 +95,19 @@ def _best(free: Any, spots: Float, ratio: float) -> Spot:
         fits = shapely.contains_properly(free, shapely.box(a[:, 0], a[:, 1], b[:, 0], b[:, 1]))
         low, high = np.where(fits, height, low), np.where(fits, high, height)
     k = int(np.argmax(low >= NEARLY * low.max()))
-    return Spot(float(spots[k, 0]), float(spots[k, 1]), float(low[k]) * ratio, float(low[k]), False)
+    x, y = spots[k].tolist()
+    size = np.array([low[k] * ratio, low[k]])
+    for axis, most in ((0, x1 - x0), (1, y1 - y0)):  # text is seldom as wide for its height as the block
+        size[axis] = _grown(free, (x, y), size, axis, most)
+    return Spot(x, y, float(size[0]), float(size[1]), False)
+
+
+def _grown(free: Any, centre: tuple[float, float], size: Float, axis: int, most: float) -> float:
+    """How far the block at ``centre`` reaches along one axis before it leaves ``free``."""
+    low, high = float(size[axis]), most
+    for _ in range(HALVINGS):
+        half = size / 2
+        half[axis] = (low + high) / 4
+        fits = free.contains_properly(shapely.box(*(centre - half), *(centre + half)))
+        low, high = ((low + high) / 2, high) if fits else (low, (low + high) / 2)
+    return low

@@ -94,6 +94,15 @@ def test_labels_keep_off_what_they_are_told(drawn):
     assert not taken.contains(shapely.Point(spot.x, spot.y))
 
 
+def test_a_label_has_all_the_room_around_its_spot():
+    deep = label_spot(shapely.box(0, 0, 3.2, 5.5))
+    assert not deep.turned
+    assert (deep.width, deep.height) == pytest.approx((3.2, 5.5), rel=0.02)
+    narrow = label_spot(shapely.box(0, 0, 1.8, 9.0))
+    assert narrow.turned
+    assert (narrow.width, narrow.height) == pytest.approx((9.0, 1.8), rel=0.02)
+
+
 def test_item_shapes_and_anchors(drawn):
     source = source_of(drawn.plan)
     for region in drawn.plan.regions:
