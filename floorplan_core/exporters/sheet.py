@@ -56,9 +56,9 @@ class Sheet:
     @property
     def paper(self) -> str:
         """The smallest paper that holds the sheet at full scale."""
-        short, long = sorted((self.width, self.height))
         papers, beyond = (IMPERIAL_PAPERS, "E or larger") if self.imperial else (PAPERS, "A0 or larger")
-        return next((name for name, a, b in papers if short <= a and long <= b), beyond)
+        found = _smallest(self.width, self.height, papers)
+        return found[0] if found else beyond
 
     @property
     def scale_text(self) -> str:
@@ -75,6 +75,21 @@ class Sheet:
     def geometry(self, shape: Any) -> Any:
         """A shapely geometry on the page."""
         return shapely.transform(shape, self.to_page)
+
+
+def _smallest(width: float, height: float, papers: Papers) -> tuple[str, float, float] | None:
+    """The smallest of ``papers`` that holds a sheet of this size, upright or not."""
+    short, long = sorted((width, height))
+    return next((paper for paper in papers if short <= paper[1] and long <= paper[2]), None)
+
+
+def paper_size(width: float, height: float, papers: Papers) -> tuple[float, float] | None:
+    """Width and height of the smallest of ``papers`` that holds a sheet of this size, turned as it is."""
+    found = _smallest(width, height, papers)
+    if found is None:
+        return None
+    _, short, long = found
+    return (long, short) if width > height else (short, long)
 
 
 def lay_out(bounds: tuple[float, float, float, float], imperial: bool = False) -> Sheet:

@@ -56,7 +56,7 @@ class SvgExporter:
 def svg_text(plan: FloorPlan, style: DrawingStyle = PLAIN) -> str:
     """The drawing of ``plan`` as the text of an SVG 1.1 document."""
     walls = poche(plan)
-    sheet = lay_out(_bounds(plan, walls), style.imperial)
+    sheet = lay_out(drawn_bounds(plan, walls), style.imperial)
     swung = swings(walls.openings, plan.regions)
     canvas = SvgCanvas()
     canvas.box(0, 0, sheet.width, sheet.height, fill=palette.PAPER)
@@ -75,7 +75,8 @@ def svg_text(plan: FloorPlan, style: DrawingStyle = PLAIN) -> str:
     return "\n".join([_head(sheet, plan, style), _definitions(plan), *canvas.lines, "</svg>", ""])
 
 
-def _bounds(plan: FloorPlan, walls: Poche) -> tuple[float, float, float, float]:
+def drawn_bounds(plan: FloorPlan, walls: Poche) -> tuple[float, float, float, float]:
+    """x0, y0, x1, y1 in plan metres of what the drawing shows, walls included."""
     shapes = [walls.observed, walls.guessed, *(r.polygon for r in plan.regions)]
     x0, y0, x1, y1 = shapely.total_bounds(shapes).tolist() if plan.regions else plan.grid.extent
     return x0, y0, x1, y1

@@ -2628,6 +2628,10 @@
    <translation>Die von Hand geänderte Tür ({0}) bei ({1}, {2}) liegt nicht zwischen zwei Regionen; sie wird weggelassen.</translation>
   </message>
   <message>
+   <source>The drawing of plan.svg on one page at true scale, to print and to hand over.</source>
+   <translation>Die Zeichnung von plan.svg auf einem Blatt im wahren Maßstab, zum Drucken und Weitergeben.</translation>
+  </message>
+  <message>
    <source>The exact cover of {0} groups of free cells by {1} rectangles was not found within {2} s; raise cover.time_limit or use cover.solver greedy.</source>
    <translation>Die exakte Überdeckung von {0} Gruppen freier Zellen durch {1} Rechtecke wurde in {2} s nicht gefunden; cover.time_limit erhöhen oder cover.solver greedy nehmen.</translation>
   </message>

@@ -15,7 +15,7 @@ print([name for name in sys.argv[1:] if name in sys.modules])
 
 
 @pytest.mark.parametrize(
-    "heavy", [("numba", "scipy", "cv2", "open3d"), ("matplotlib", "ezdxf", "trimesh", "laspy")]
+    "heavy", [("numba", "scipy", "cv2", "open3d"), ("matplotlib", "ezdxf", "reportlab", "trimesh", "laspy")]
 )
 def test_the_window_imports_nothing_heavy(heavy: tuple[str, ...]) -> None:
     command = [sys.executable, "-c", BEFORE_THE_WINDOW, *heavy]
