@@ -11,6 +11,7 @@ from floorcast_app.viewports.plan_camera import framed
 
 if TYPE_CHECKING:
     from floorcast_app.workbench import Workbench
+    from floorplan_core.model import FloorPlan
 
 Point = tuple[float, float]
 
@@ -42,3 +43,15 @@ def check_ends(workbench: Workbench, id: str) -> tuple[Point, Point] | None:
     if check is None or workbench.plan is None:
         return None
     return workbench.to_plan(check.start), workbench.to_plan(check.end)
+
+
+def change_plan(workbench: Workbench, plan: FloorPlan | None) -> None:
+    """Another plan of the same survey, seen from the same place: origins move while a run grows."""
+    view, centre = workbench.view, None
+    if workbench.plan is not None and plan is not None:
+        centre, fitted = workbench.to_local(view.look.centre), view.is_fitted
+    workbench.plan = plan
+    if centre is not None:
+        view.set(centre=workbench.to_plan(centre))
+        if fitted:
+            view.fitted = view.look.centre, view.look.span

@@ -23,6 +23,18 @@ class Points:
     xyz: NDArray[np.float32]  # (N, 3) metres, local frame
     rgb: NDArray[np.uint8] | None = None  # (N, 3)
     intensity: NDArray[np.float32] | None = None  # (N,) in the file's own scale
+    scan: NDArray[np.int32] | None = None  # (N,) row of the trajectory that saw the point
+
+    def rows(self, rows: slice | NDArray[np.int64]) -> Points:
+        """Some of the points; what a slice gives shares their memory."""
+        return Points(*(None if part is None else part[rows] for part in self._parts()))  # type: ignore[arg-type]
+
+    def copy(self) -> Points:
+        """The points with memory of their own."""
+        return Points(*(None if part is None else part.copy() for part in self._parts()))  # type: ignore[arg-type]
+
+    def _parts(self) -> tuple[NDArray | None, ...]:
+        return self.xyz, self.rgb, self.intensity, self.scan
 
 
 class Share:
@@ -41,11 +53,12 @@ class Share:
             self._kept = -(-self._kept // 2)
         rows = slice(self._skip % self.every, None, self.every)
         self._skip = (rows.start - count) % self.every
-        colour, intensity = getattr(chunk, "rgb", None), getattr(chunk, "intensity", None)
+        colour, intensity, scan = (getattr(chunk, name, None) for name in ("rgb", "intensity", "scan_id"))
         part = Points(
             np.asarray(chunk.points[rows], dtype=np.float32),
             None if colour is None else np.asarray(colour[rows]),
             None if intensity is None else np.asarray(intensity[rows], dtype=np.float32),
+            None if scan is None else np.asarray(scan[rows], dtype=np.int32),
         )
         self._kept += len(part.xyz)
         return part
@@ -89,18 +102,12 @@ class PointStore:
             np.take(xyz, order, axis=0),  # three times as fast as indexing, and without the interpreter lock
             _joined([c.rgb for c in chunks], order),
             _joined([c.intensity for c in chunks], order),
+            _joined([c.scan for c in chunks], order),
         )
 
     def _thin(self) -> None:
         self._every *= 2
-        self._chunks = [
-            Points(
-                c.xyz[::2].copy(),
-                None if c.rgb is None else c.rgb[::2].copy(),
-                None if c.intensity is None else c.intensity[::2].copy(),
-            )
-            for c in self._chunks
-        ]
+        self._chunks = [c.rows(slice(None, None, 2)).copy() for c in self._chunks]
         self._kept = sum(len(c.xyz) for c in self._chunks)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -49,6 +50,14 @@ class Snapshot:
     plan: FloorPlan | None  # None: there was no plan yet
     seen: float = 0.0  # m2 of the regions that were seen free
     predicted: float = 0.0  # m2 of the regions that were not
+
+
+def scans_until(run: Reconstruction, moment: float | None) -> int | None:
+    """Rows of the trajectory up to a moment (seconds of run time); None: all of them."""
+    if moment is None or run.trajectory is None:
+        return None
+    stamps = run.trajectory.stamps
+    return bisect_right(stamps, stamps[0] + moment)
 
 
 def snapshots(

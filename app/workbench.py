@@ -16,7 +16,7 @@ from floorcast_app.actions.registry import ActionRegistry, as_json, check_argume
 from floorcast_app.document import Document
 from floorcast_app.events import Event
 from floorcast_app.interface import Interface, NoInterface
-from floorcast_app.item_bounds import bring_into_view
+from floorcast_app.item_bounds import bring_into_view, change_plan
 from floorcast_app.jobs import Jobs, Post
 from floorcast_app.point_store import PointStore
 from floorcast_app.preferences import Preferences
@@ -43,6 +43,7 @@ class Workbench:
         self.post = post  # runs a function in the main thread, soon
         self.planner: Planner = planner or LocalPlanner()  # reads and plans, for jobs
         self._whole: FloorPlan | None = None  # the plan of the whole survey, while a moment of a run is shown
+        self.moment: float | None = None  # seconds of run time of that moment
         self.document = Document()
         self.selection = Selection()
         self.view = ViewState()
@@ -189,10 +190,9 @@ class Workbench:
 
     def show_snapshot(self, index: int | None) -> None:
         """Show the plan of one moment of the run; None: the plan of the whole survey."""
-        if index is None:
-            self.plan = self._whole
-        elif self.timeline[index].plan is not None:
-            self.plan = self.timeline[index].plan
+        shown = self._whole if index is None else self.timeline[index].plan or self.plan
+        self.moment = None if index is None else self.timeline[index].time
+        change_plan(self, shown)
         self.plan_changed.emit(self.plan)
         self.selection.keep_only(self.exists)
 
@@ -357,7 +357,7 @@ class Workbench:
 
     def _planned(self, result: _Planned) -> None:
         self.session, self.plan, self.storeys = result
-        self._whole = self.plan
+        self._whole, self.moment = self.plan, None
         self.warnings = self.plan.warnings
         self.assumptions = self.session.reconstruction.assumptions
         self.points_changed.emit()
@@ -381,7 +381,7 @@ class Workbench:
     def _close_survey(self) -> None:
         self.jobs.cancel()
         self.session, self.plan, self.storeys, self.warnings = None, None, (), ()
-        self._whole, self._replayed = None, {}
+        self._whole, self.moment, self._replayed = None, None, {}
         self._show_timeline()
         self.points = PointStore()
         self.selection.select(None)

@@ -1,20 +1,22 @@
-"""Two areas over time: what was seen, and what was predicted on top of it. A click goes to that moment."""
+"""Two areas over the moments of a run: what was seen, and what was predicted on top of it.
+
+A click goes to that moment; each lies under its place on the slider above.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QSlider, QWidget
 
 from floorcast_app import theme
 from floorcast_app.format import SQUARE_FEET_PER_M2, number
 from floorcast_app.translation import tr
 
 ROOMY = 80  # px: a lower one shows its shape only
-GROUND = 0.88  # opacity of what lies under a label
 MARGIN = 8.0  # px left and right, as much as half a slider's handle
 
 
@@ -23,8 +25,9 @@ class Sparkline(QWidget):
 
     picked = Signal(int)
 
-    def __init__(self) -> None:
+    def __init__(self, slider: QSlider) -> None:
         super().__init__()
+        self._slider = slider
         self.values: tuple[tuple[float, float, float], ...] = ()
         self.at = -1
         self.units = "m"
@@ -40,9 +43,9 @@ class Sparkline(QWidget):
 
     def x_of(self, index: int) -> float:
         """Pixel of a moment."""
-        first, last = self.values[0][0], self.values[-1][0]
-        share = (self.values[index][0] - first) / (last - first) if last > first else 0.5
-        return MARGIN + share * (self.width() - 2 * MARGIN)
+        left, right = self._ends()
+        share = index / (len(self.values) - 1) if len(self.values) > 1 else 0.5
+        return left + share * (right - left)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self._pick(event)
@@ -75,6 +78,11 @@ class Sparkline(QWidget):
             painter.drawEllipse(QRectF(x - 3, y - 3, 6, 6))
         painter.end()
 
+    def _ends(self) -> tuple[float, float]:
+        """Pixels of the first and the last place of the slider."""
+        left = self._slider.mapToGlobal(QPoint(0, 0)).x() - self.mapToGlobal(QPoint(0, 0)).x()
+        return left + MARGIN, left + self._slider.width() - MARGIN
+
     def _top(self) -> float:
         return max(seen + predicted for _, seen, predicted in self.values) or 1.0
 
@@ -83,13 +91,16 @@ class Sparkline(QWidget):
         holds = theme.colours()
         painter.setFont(theme.font(11))
         unit = 1.0 if self.units == "m" else 1 / SQUARE_FEET_PER_M2  # m2
-        step = _round(top / unit / 3)
+        step, (left, right) = _round(top / unit / 3), self._ends()
         for k in range(1, int(top / unit / step) + 1):
             y = self._y(k * step * unit, top)
             painter.setPen(QPen(QColor(holds.line_strong), 1, Qt.PenStyle.DotLine))
-            painter.drawLine(QPointF(MARGIN, y), QPointF(self.width() - MARGIN, y))
-            _label(painter, f"{number(k * step, ',.0f')} {'m²' if self.units == 'm' else 'sq ft'}", y)
-        x = self.width() - 2 * MARGIN
+            painter.drawLine(QPointF(left, y), QPointF(right, y))
+            text = f"{number(k * step, ',.0f')} {'m²' if self.units == 'm' else 'sq ft'}"
+            painter.setPen(QColor(holds.muted))
+            box = QRectF(0, y - MARGIN, left - MARGIN, 2 * MARGIN)
+            painter.drawText(box, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, text)
+        x = right - MARGIN
         for text, brush in (
             (tr("predicted"), QBrush(QColor(holds.predicted), Qt.BrushStyle.BDiagPattern)),
             (tr("seen"), None),
@@ -123,20 +134,6 @@ class Sparkline(QWidget):
         if self.values:
             x = event.position().x()
             self.picked.emit(min(range(len(self.values)), key=lambda i: abs(self.x_of(i) - x)))
-
-
-def _label(painter: QPainter, text: str, y: float) -> None:
-    """On a ground of its own: neither hatch nor line runs through the figures."""
-    holds = theme.colours()
-    metrics = painter.fontMetrics()
-    box = QRectF(MARGIN + 2, y - metrics.height() / 2, metrics.horizontalAdvance(text) + 8, metrics.height())
-    ground = QColor(holds.panel)
-    ground.setAlphaF(GROUND)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(ground)
-    painter.drawRoundedRect(box, 3, 3)
-    painter.setPen(QColor(holds.muted))
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
 def _round(value: float) -> float:

@@ -37,7 +37,7 @@ class TimelinePanel(Panel):
         self.facts = label("", "small")
         self.facts.setContentsMargins(GRID, 0, GRID, 0)
         self.facts.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.spark = Sparkline()
+        self.spark = Sparkline(self.slider)
         self.spark.picked.connect(self.slider.setValue)
         self.whole = QPushButton(tr("Whole survey"))
         self.whole.setToolTip(tr("Back to the plan of all that was measured"))

@@ -29,12 +29,14 @@ class Wanted:
     colour: str  # one of POINT_COLOURS
     theme: str
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  # metres: of the plan's local frame in the points'
+    scans: int | None = None  # rows of the trajectory whose points are shown; None: all
 
     def same(self, other: Wanted | None) -> bool:
         """True where both want the same."""
         if other is None or self.store is not other.store or self.plan is not other.plan:
             return False
-        return (self.colour, self.theme, self.origin) == (other.colour, other.theme, other.origin)
+        told = (self.colour, self.theme, self.origin, self.scans)
+        return told == (other.colour, other.theme, other.origin, other.scans)
 
 
 @dataclass(frozen=True)
@@ -45,31 +47,34 @@ class Loaded:
     cloud: Cloud
     paint: Paint
     matrix: Float  # (3, 4) local frame to scene
+    read: int  # points that the store had then
 
 
 class CloudMaker:
     """Makes what is wanted; keeps the cloud as long as only its colours change."""
 
     def __init__(self) -> None:
-        self._kept: tuple[PointStore, int, Float, Cloud] | None = None
+        self._kept: tuple[PointStore, int, int | None, Float, Cloud] | None = None
 
     def load(self, wanted: Wanted) -> Loaded:
         """Points of the store as it is now."""
-        cloud, matrix = self._cloud(wanted)
-        return Loaded(wanted, cloud, paint(cloud, wanted.colour, wanted.plan, wanted.theme), matrix)
+        _, read, _, matrix, cloud = self._cloud(wanted)
+        colours = paint(cloud, wanted.colour, wanted.plan, wanted.theme)
+        return Loaded(wanted, cloud, colours, matrix, read)
 
-    def _cloud(self, wanted: Wanted) -> tuple[Cloud, Float]:
-        store, plan = wanted.store, wanted.plan
+    def _cloud(self, wanted: Wanted) -> tuple[PointStore, int, int | None, Float, Cloud]:
+        store, plan, scans = wanted.store, wanted.plan, wanted.scans
         count, matrix = len(store), None if plan is None else scene_matrix(plan, origin=wanted.origin)
         kept = self._kept
-        if kept is not None and kept[0] is store and kept[1] == count and _near(kept[2], matrix):
-            return kept[3], kept[2]
+        if kept is not None and kept[:3] == (store, count, scans) and _near(kept[3], matrix):
+            return kept
         points = store.snapshot()
+        if scans is not None and points.scan is not None:
+            points = points.rows(np.flatnonzero(points.scan < scans))
         if matrix is None:
             matrix = scene_matrix(None, lowest_level(points.xyz))
-        cloud = make_cloud(points, matrix)
-        self._kept = (store, count, matrix, cloud)
-        return cloud, matrix
+        self._kept = (store, count, scans, matrix, make_cloud(points, matrix))
+        return self._kept
 
 
 class CloudLoader:

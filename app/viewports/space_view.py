@@ -26,6 +26,7 @@ from floorcast_app.rendering.cloud import Cloud, plan_origin, scene_matrix
 from floorcast_app.rendering.cloud_loader import CloudLoader, CloudMaker, Loaded, Wanted
 from floorcast_app.rendering.frame_worker import FrameWorker, Stage, Subject
 from floorcast_app.rendering.renderer import Frame, Renderer
+from floorcast_app.run_replay import scans_until
 from floorcast_app.selection import Item
 from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
@@ -144,7 +145,9 @@ class SpaceView(QWidget):
 
     def _wanted_now(self) -> Wanted:
         w = self.workbench
-        return Wanted(w.points, w.plan, w.view.look.point_colour, w.view.look.theme, self._origin())
+        look, session = w.view.look, w.session
+        scans = None if session is None else scans_until(session.reconstruction, w.moment)
+        return Wanted(w.points, w.plan, look.point_colour, look.theme, self._origin(), scans)
 
     def _origin(self) -> tuple[float, float, float]:
         session = self.workbench.session
@@ -165,7 +168,7 @@ class SpaceView(QWidget):
         """While a job reads: show more points now and then."""
         if not self.workbench.jobs.running:
             self._poll.stop()
-        shown = 0 if self._loaded is None else len(self._loaded.cloud)
+        shown = 0 if self._loaded is None else self._loaded.read
         rested = time.perf_counter() - self._load_began > PATIENCE * self._load_took
         if rested and not self._loader.busy and len(self.workbench.points) > GROWTH * shown:
             self._want_points()
@@ -188,7 +191,7 @@ class SpaceView(QWidget):
 
     def _shows(self, wanted: Wanted) -> bool:
         loaded = self._loaded
-        return loaded is not None and wanted.same(loaded.wanted) and len(loaded.cloud) == len(wanted.store)
+        return loaded is not None and wanted.same(loaded.wanted) and loaded.read == len(wanted.store)
 
     def subject(self, width: int, height: int, loaded: Loaded | None = None) -> Subject:
         """What is to be seen in a picture of ``width`` x ``height`` pixels, with the points loaded so far."""

@@ -277,13 +277,7 @@ def _without_points(survey: Reconstruction) -> Reconstruction:
 
 def _pieces(points: Points) -> Iterator[Points]:
     for begin in range(0, len(points.xyz), PIECE):
-        rows = slice(begin, begin + PIECE)
-        rgb, intensity = points.rgb, points.intensity
-        yield Points(
-            points.xyz[rows],
-            None if rgb is None else rgb[rows],
-            None if intensity is None else intensity[rows],
-        )
+        yield points.rows(slice(begin, begin + PIECE))
 
 
 def _is_shown(result: object) -> bool:

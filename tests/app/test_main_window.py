@@ -106,9 +106,15 @@ def test_a_run_is_replayed(script: ScriptedApplication) -> None:
     assert len(timeline) >= 3 and timeline[-1].plan is not None
     assert [s.time for s in timeline] == sorted(s.time for s in timeline)
     assert timeline[-1].seen > timeline[0].seen
+    place = workbench.to_local(workbench.view.look.centre)
+    workbench.show_snapshot(0)
+    assert workbench.to_local(workbench.view.look.centre) == pytest.approx(place, abs=1e-6)
+    space = script.window.pane("space")
+    assert space._wanted_now().scans == len(workbench.plan.trajectory)
     workbench.show_snapshot(len(timeline) - 1)
     assert workbench.plan is timeline[-1].plan
     workbench.show_snapshot(None)
+    assert space._wanted_now().scans is None
     assert workbench.plan is whole
 
 

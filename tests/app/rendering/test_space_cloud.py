@@ -101,6 +101,15 @@ def test_only_colours_are_made_again_where_only_they_change() -> None:
     assert len(maker.load(Wanted(store, plan, "facing", "dark")).cloud) == 1010
 
 
+def test_of_a_moment_of_a_run_only_what_was_seen_by_then_is_shown() -> None:
+    store, maker = PointStore(), CloudMaker()
+    points = np.random.default_rng(0).uniform(0, 3, (1000, 3)).astype(np.float32)
+    store.add(PointChunk(points, scan_id=np.repeat(np.arange(10, dtype=np.int32), 100)))
+    some = maker.load(Wanted(store, small_flat(), "height", "light", scans=3))
+    assert (len(some.cloud), some.read, len(some.paint.colours)) == (300, 1000, 300)
+    assert len(maker.load(Wanted(store, small_flat(), "height", "light")).cloud) == 1000
+
+
 def test_the_loader_answers_the_last_wish() -> None:
     store = PointStore()
     store.add(PointChunk(np.random.default_rng(0).uniform(0, 3, (50_000, 3)).astype(np.float32)))
