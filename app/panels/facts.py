@@ -37,6 +37,7 @@ EVIDENCE = {  # the stages' words of evidence as sentences
     "narrow between two spaces": "It is narrow between two wide spaces",
     "reaches ceiling": "It reaches the ceiling",
     "looked over": "The sensor looked over it: there is air above",
+    "hardly seen": "Too little of its height was seen",
     "above furniture": "It reaches above furniture",
     "long, top not seen": "It is long, and its top was not seen",
     "low": "It is low",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.rectilinear import corners, map_polygon, move_sides
 from floorplan_core.model import Door, Facing, LayoutPlane, LayoutSegment, RegionSide
 from floorplan_core.stages.side_measures import REACH, measure_sides, side_targets
+from floorplan_core.stages.side_steps import add_steps
 from floorplan_core.stages.structure import LOW
 
 Float = NDArray[np.float64]
@@ -107,13 +108,15 @@ class WallSurfaces:
         ]
 
     def fit(self, polygon: Any) -> Any:
-        """The polygon with every side moved to the surfaces seen along it; those placed by hand stay."""
+        """The polygon with every side moved to the surfaces seen along it, in steps where they step; those
+        placed by hand stay."""
         t = self._table
 
         def targets(points: Float) -> Float:
             return np.asarray(side_targets(points, t.seen, t.first, t.placed, self.thickness))
 
-        return map_polygon(polygon, lambda ring: move_sides(ring, targets))
+        moved = map_polygon(polygon, lambda ring: move_sides(ring, targets))
+        return add_steps(moved, t.seen, t.first, t.placed)
 
 
 def doors_of(doors: Sequence[Door]) -> Float:

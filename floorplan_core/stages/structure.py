@@ -30,8 +30,11 @@ _FOOT, _AS_FREE = (
     0.3,
     0.7,
 )  # m above the floor; share of what is free above a surface that is so below it, too
+_HEAD = 2.0  # m above the floor: what begins higher is a beam or a lintel
+_SPARSE = 0.3  # m of its height seen on average: without viewpoints less of it is no wall
 LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
 OVER = "looked over"  # the word for what has air behind and above it
+SPARSE = "hardly seen"  # the word for what may be the edges of furniture and of ceiling in one line
 ALL_LEVELS = np.uint64((1 << 64) - 1)
 
 Judgement = tuple[bool, tuple[str, ...]]  # structure or not, and why
@@ -70,7 +73,12 @@ def judge(
     surely = (tall > 0) & (length > _LEAF) & (patches.area >= _WELL_SEEN * length)
     over = patches.count(_looked_over(evidence, facing, patches, offset, surely))
     numbers = zip(patches.lengths, tall, patches.count(at_top), over, strict=True)
-    return [_judgement(fine, *(int(n) for n in four)) for four in numbers]
+    judged = [_judgement(fine, *(int(n) for n in four)) for four in numbers]
+    if evidence.viewpoints:
+        return judged
+    extent = fine * (patches.row[patches.first[1:] - 1] - patches.row[patches.first[:-1]] + 1)
+    sparse = (patches.area < _SPARSE * extent) & (patches.count((bits & height_mask(0, _HEAD)) != 0) > 0)
+    return [(False, (SPARSE,)) if no else said for no, said in zip(sparse, judged, strict=True)]
 
 
 def _held(bits: NDArray[np.uint64]) -> NDArray[np.uint64]:

@@ -25,6 +25,7 @@ Float = NDArray[np.float64]
 
 _SHORTEST = 0.3  # m of wall that tells where it goes on
 _INSIDE = 0.25  # m from the sides of the region, within which a wall is its side
+_LED_TO = 0.35  # m from the end of a wall to where a region goes on: the cut along it ends a little later
 _TOUCH = 0.3  # m between the end of a wall and another that it meets there
 _CROSSED = 0.25  # m of the line that may have been seen free: cells are coarse
 _LEAST = 0.1  # m2 of free cells in each part; less in one of them shows nothing
@@ -57,9 +58,9 @@ class WallExtender:
         if not len(walls):
             return [polygon]
         edges, grid = edges_of(polygon), self._grid
-        on = _going_on(edges, walls, *self._faces, grid.universe, grid.origin, grid.cell)
-        for axis, middle, start, end in walls[on].tolist():
-            cut = self._cut(edges, int(axis), middle, start, end)
+        found = _going_on(edges, walls, *self._faces, grid.universe, grid.origin, grid.cell)
+        for wall in np.unique(found[:, 0]):
+            cut = self._cut(found[found[:, 0] == wall, 1:])
             parts = polygons_of(shapely.difference(polygon, cut))
             if len(parts) > 1:
                 seen = [part for part in parts if self._free(part) >= _LEAST]
@@ -77,17 +78,14 @@ class WallExtender:
         inside = (low + _INSIDE < middle) & (middle < high - _INSIDE)
         return np.asarray(self._walls[inside & (first < end + _INSIDE) & (last > start - _INSIDE)])
 
-    def _cut(self, edges: Float, axis: int, middle: float, start: float, end: float) -> Any:
-        """The box along the wall's line to the far sides of the polygon."""
+    def _cut(self, lines: Float) -> Any:
+        """The boxes along lines (axis, middle, from, to) through a polygon."""
         half = self._thickness / 2
-        boxes = [
-            (middle - half, a - _INSIDE, middle + half, b + _INSIDE)
-            for a, b in chords(edges, axis, middle).tolist()
-            if _is_on(a, b, start, end)
-        ]
-        return shapely.union_all(
-            [shapely.box(*(b if axis == 0 else (b[1], b[0], b[3], b[2]))) for b in boxes]
-        )
+        boxes = []
+        for axis, middle, low, high in lines.tolist():
+            u0, u1, v0, v1 = middle - half, middle + half, low - _INSIDE, high + _INSIDE
+            boxes.append(shapely.box(u0, v0, u1, v1) if axis == 0 else shapely.box(v0, u0, v1, u1))
+        return shapely.union_all(boxes)
 
     def _free(self, polygon: Any) -> float:
         """m2 of the polygon that were seen free."""
@@ -103,32 +101,40 @@ def _observed(plane: LayoutPlane, start: float, end: float) -> float:
 
 @njit(cache=True, nogil=True)
 def _going_on(edges, walls, upright, level, universe, origin, cell):  # type: ignore[no-untyped-def]
-    """(W,) True for the walls (axis, middle, start, end) that go on to the far sides of the polygon."""
-    out = np.zeros(len(walls), dtype=np.bool_)
+    """(K, 5) wall, axis, middle, from, to of the chords of the polygon along which a wall goes on."""
+    out = np.empty((len(walls) * len(edges), 5))
+    count = 0
     for w in range(len(walls)):
         axis, middle, start, end = int(walls[w, 0]), walls[w, 1], walls[w, 2], walls[w, 3]
         across = level if axis == 0 else upright
         for a, b in chords(edges, axis, middle):
             if not _is_on(a, b, start, end):
                 continue
-            out[w] = True
+            on = True
             for low, high in ((a, min(b, start)), (max(a, end), b)):
                 if high - low <= _EXACT:
                     continue
                 tip = end if low >= end - _EXACT else start
                 free = _free_along(universe, axis, middle, low, high, origin, cell)
                 if (high - low > _INSIDE and _is_met(across, tip, middle)) or free > _CROSSED:
-                    out[w] = False
+                    on = False
                     break
-            if not out[w]:
-                break
-    return out
+            if on:
+                out[count, 0], out[count, 1], out[count, 2], out[count, 3], out[count, 4] = (
+                    w,
+                    axis,
+                    middle,
+                    a,
+                    b,
+                )
+                count += 1
+    return out[:count]
 
 
 @njit(cache=True, nogil=True)
 def _is_on(a, b, start, end):  # type: ignore[no-untyped-def]
     """True for a chord of the polygon, from ``a`` to ``b``, on which a wall lies or to which it leads."""
-    return b - a > _EXACT and a < end + _INSIDE and b > start - _INSIDE
+    return b - a > _EXACT and a < end + _LED_TO and b > start - _LED_TO
 
 
 @njit(cache=True, nogil=True)

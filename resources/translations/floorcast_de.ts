@@ -2924,6 +2924,10 @@
    <translation>Toleranz</translation>
   </message>
   <message>
+   <source>Too little of its height was seen</source>
+   <translation>Von seiner Höhe ist zu wenig zu sehen</translation>
+  </message>
+  <message>
    <source>Too little to make a plan of: {0} points in {1} voxels of {2} m; check the unit (--set input.unit=...) or give more scans.</source>
    <translation>Zu wenig für einen Plan: {0} Punkte in {1} Voxeln von {2} m; Einheit prüfen (--set input.unit=...) oder mehr Scans geben.</translation>
   </message>

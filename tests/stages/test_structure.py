@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -82,5 +84,30 @@ def test_a_ceiling_lower_than_the_rest_makes_no_cabinet_a_wall(top, structure, l
         *(np.array([0]), np.array([0, 16]), np.arange(16), np.full(16, seen), np.array([16 * 0.1]))
     )
     evidence = seen_free(free, frame=ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 3.0))
+    ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([1.0]), SegmentsConfig())
+    assert found == structure
+
+
+@pytest.mark.parametrize(
+    ("low", "viewpoints", "structure"),
+    [
+        ((0.3, 0.4), False, False),  # the edge of a desk, and of the ceiling above it
+        ((0.3, 1.4), False, True),  # enough of a wall
+        ((0.3, 0.4), True, True),  # where it is known what was looked over, that decides
+        ((2.3, 2.4), False, True),  # a beam, or what was seen of a wall above things
+    ],
+)
+def test_without_viewpoints_a_wall_is_what_enough_was_seen_of(low, viewpoints, structure):
+    seen = height_mask(*low) | height_mask(2.6, 2.7)
+    rows = 30
+    patch = Patches(
+        np.array([0]),
+        np.array([0, rows]),
+        np.arange(rows),
+        np.full(rows, seen),
+        np.array([rows * 0.05 * (low[1] - low[0] + 0.1)]),
+    )
+    frame = ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, 2.8)
+    evidence = replace(seen_free(np.zeros((20, 20), dtype=np.uint64), frame=frame), viewpoints=viewpoints)
     ((found, _),) = judge(evidence, Facing.EAST, patch, np.array([1.0]), SegmentsConfig())
     assert found == structure

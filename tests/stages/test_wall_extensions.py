@@ -65,3 +65,19 @@ def test_short_hidden_and_guessed_pieces_tell_nothing() -> None:
 
 def test_a_wall_beside_the_region_is_its_side() -> None:
     assert split(grid(LEFT, RIGHT), wall(Facing.EAST, 1.05, 1.0, 2.0)) == [WHOLE]
+
+
+def test_a_wall_goes_on_from_where_the_cut_along_it_ends() -> None:
+    """What stands in a room was cut out of it, and some centimetres more."""
+    slit = WHOLE.difference(shapely.box(5.0, 1.0, 5.0 + THICK, 2.1))
+    parts = WallExtender([STUB], grid(LEFT, RIGHT), THICK).split(slit)
+    assert sorted(round(p.bounds[0], 2) for p in parts) == [1.0, 5.12]
+
+
+def test_of_a_wall_in_two_places_one_may_go_on_and_the_other_not() -> None:
+    """Beyond its far end the region is a bay, in which another wall meets it."""
+    bay = shapely.union_all([WHOLE, shapely.box(4.5, 5.2, 5.5, 7.0)]).union(shapely.box(4.5, 4.9, 4.8, 5.3))
+    wall_to_bay = wall(Facing.WEST, 5.0, 3.5, 5.3)
+    across = wall(Facing.NORTH, 5.3, 5.1, 5.4)
+    parts = WallExtender([wall_to_bay, across], grid(LEFT, RIGHT), THICK).split(bay)
+    assert len(parts) == 2
