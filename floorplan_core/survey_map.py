@@ -139,7 +139,8 @@ class SurveyMap:
         if asked is not None:
             turned = math.degrees(math.atan2(self.own.rotation[1, 0], self.own.rotation[0, 0]))
             config = config.model_copy(update={"yaw_deg": asked + turned})
-        return seen_from(estimate_frame(self.sample(), config), self.own.rotation, asked)
+        frame = estimate_frame(self.sample(), config, self._lattice or 0.0)
+        return seen_from(frame, self.own.rotation, asked)
 
     def path(self) -> Float:
         """(M, 3) sensor positions so far, frame of the map."""

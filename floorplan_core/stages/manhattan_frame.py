@@ -29,6 +29,7 @@ Float = NDArray[np.float64]
 _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
 _PLANAR = 0.4  # of the surfels in patches that are planar: 0.5 to 0.8 where noise is thinner than patches
 _WIDER, _MORE = 2.0, 1.5  # times the usual patch; times as many surfels as it explains: for clutter less
+_ACROSS = 8  # voxels of a voxel map in a patch: two layers of them are a plane there
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
@@ -37,9 +38,12 @@ _ASKEW = math.radians(10)  # from the frame: walls at more are no noise of those
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 
-def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
-    """The rotation after which walls lie along x and y; raises :class:`NoPlanError` where there is none."""
-    normals = _patches(surfels, config)
+def estimate_frame(surfels: Surfels, config: FrameConfig, voxel: float = 0.0) -> ManhattanFrame:
+    """The rotation after which walls lie along x and y; raises :class:`NoPlanError` where there is none.
+
+    ``voxel``: metres, side of the voxels where the survey is the centres of a voxel map.
+    """
+    normals = _patches(surfels, config, voxel)
     up = _gravity(normals)
     level = rotation_to_z(up)
     n = normals.normal @ level.T
@@ -71,9 +75,16 @@ def estimate_frame(surfels: Surfels, config: FrameConfig) -> ManhattanFrame:
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling, askew)
 
 
-def _patches(surfels: Surfels, config: FrameConfig) -> CellNormals:
-    """The planar patches; wider ones where noise is so thick that few of the usual width are planar."""
+def _patches(surfels: Surfels, config: FrameConfig, voxel: float) -> CellNormals:
+    """The planar patches; wider ones where noise is so thick that few of the usual width are planar.
+
+    In a map of ``voxel`` metres a wall on the border of two voxels fills both: thin only in a patch of many.
+    """
     usual = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
+    if _ACROSS * voxel > config.cell:
+        across = fit_cell_normals(surfels.centroid, _ACROSS * voxel, config.planarity)
+        if across.share > max(_PLANAR, usual.share):
+            return across
     if usual.share > _PLANAR:
         return usual
     wider = fit_cell_normals(surfels.centroid, _WIDER * config.cell, config.planarity)
