@@ -1,4 +1,5 @@
-"""Makes the pictures of docs/surveys.md and its table, which the README has too, from the surveys themselves.
+"""Makes the pictures of docs/surveys.md and its table, which the README has too, from the surveys themselves;
+and the parts of them that docs/limits.md shows (``picture_details.py``).
 
     .venv/bin/python docs/make_pictures.py [SURVEY ...]     all where none is named
 
@@ -22,6 +23,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from picture_details import draw_details
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -100,6 +102,7 @@ def run(survey: Survey, out: Path) -> str:
     seconds = cpu() - before
     for figure in survey.figures:
         shrink(out / f"{figure}.png", IMAGES / f"{survey.name}-{figure}.png")
+    draw_details(survey.name, out, survey.truth, IMAGES)
     if survey.source == SAMPLE:
         extra_pictures(out)
     score = json.loads(call("evaluate", out, survey.truth, "--json")) if survey.truth else {}
