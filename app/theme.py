@@ -67,15 +67,20 @@ def begin(app: QApplication, theme: str) -> None:
     app.setPalette(_palette(colours()))
 
 
-def font(pixels: int = FONT_PIXELS, weight: int = 400) -> QFont:
-    """The bundled font with figures of equal width, so that numbers stand under each other."""
+def font(pixels: int = FONT_PIXELS, weight: int = 400, figures: bool = False) -> QFont:
+    """The bundled font.
+
+    :param figures: of equal width, so that numbers stand under each other. Hyphens and spaces are as wide
+        then: it is not for words.
+    """
     from PySide6.QtGui import QFont
 
     _load_fonts()
     made = QFont(FONT_FAMILY)
     made.setPixelSize(pixels)
     made.setWeight(QFont.Weight(weight))
-    made.setFeature(QFont.Tag("tnum"), 1)
+    if figures:
+        made.setFeature(QFont.Tag("tnum"), 1)
     return made
 
 

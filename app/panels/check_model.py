@@ -81,6 +81,8 @@ class CheckModel(QAbstractTableModel):
             return self._edited_text(row, column)
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(column)
+        if role == Qt.ItemDataRole.FontRole and column in NUMBERS:
+            return theme.font(figures=True)
         if role == Qt.ItemDataRole.ForegroundRole:
             return self._colour(row, column)
         return None

@@ -127,6 +127,8 @@ class ItemModel(QAbstractTableModel):
             return tr(column.tip)
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(column.number)
+        if role == Qt.ItemDataRole.FontRole and column.number:
+            return theme.font(figures=True)
         return None
 
     def data(self, index: Index, role: int = int(Qt.ItemDataRole.DisplayRole)) -> Any:
@@ -142,6 +144,8 @@ class ItemModel(QAbstractTableModel):
             return column.key(thing)
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(column.number)
+        if role == Qt.ItemDataRole.FontRole and column.number:
+            return theme.font(figures=True)
         if index.column() == OWN:
             return self._first(thing, role)
         if role == Qt.ItemDataRole.ForegroundRole and getattr(thing, "speculated", False):

@@ -117,7 +117,9 @@ class PropertiesPanel(Panel):
 
     def _value(self, fact: Fact) -> QWidget:
         if fact.item is None and not fact.setting:
-            return _right(QLabel(_unbroken(fact.value)))
+            plain = QLabel(_unbroken(fact.value))
+            plain.setFont(theme.font(figures=fact.value[:1].isdigit() and fact.value.count(" ") < 2))
+            return _right(plain)
         link = Link(_unbroken(fact.value))
         if fact.item is not None:
             item = fact.item

@@ -6,6 +6,7 @@ import math
 
 from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
 
+from floorcast_app import theme
 from floorcast_app.format import angle, length, number, percent, seconds
 from floorcast_app.panels.base import listener_of
 from floorcast_app.panels.progress_strip import ProgressStrip
@@ -23,6 +24,7 @@ class StatusBar(QStatusBar):
         self.pointer = QLabel()
         self.frame, self.points, self.counts, self.ready = QLabel(), QLabel(), QLabel(), QLabel()
         self.pointer.setMinimumWidth(160)
+        self.pointer.setFont(theme.font(figures=True))
         self.progress = ProgressStrip(workbench, self)
         self.addWidget(self.pointer)
         self.addWidget(self.progress)

@@ -34,6 +34,8 @@ class TimelinePanel(Panel):
         self.clock = label("", "changed")
         self.clock.setMinimumWidth(72)
         self.end = label("", "muted")  # when the run ends
+        for clock in (self.clock, self.end):
+            clock.setFont(theme.font(figures=True))  # else it trembles while the run is played
         self.facts = label("", "small")
         self.facts.setContentsMargins(GRID, 0, GRID, 0)
         self.facts.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)

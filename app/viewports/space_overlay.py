@@ -60,7 +60,7 @@ def draw_overlay(painter: QPainter, overlay: Overlay, width: int, height: int) -
         if overlay.paint is not None:
             _note(painter, overlay.paint, look)
     if overlay.message:
-        _message(painter, overlay.message, look, width, height)
+        draw_message(painter, overlay.message, look, width, height)
 
 
 def _names(painter: QPainter, overlay: Overlay, camera: Camera) -> None:
@@ -148,7 +148,8 @@ def _legend(painter: QPainter, overlay: Overlay, width: int, height: int) -> Non
     ramp = paint is not None and paint.heights is not None
     facings = paint is not None and not ramp and look.point_colour == "facing"
     ramp_height = RAMP_HEIGHT * _small(width, height)
-    wide = 108.0 if facings else 84.0
+    grid = QFontMetricsF(theme.font(SMALL_SIZE)).horizontalAdvance(_grid_text(look)) + 22
+    wide = max(108.0 if facings else 84.0, grid if overlay.grid else 0.0)
     tall = (
         (26.0 if overlay.grid else 8.0) + (ramp_height + 12 if ramp else 0) + (18.0 * 4 + 4 if facings else 0)
     )
@@ -230,7 +231,8 @@ def _note(painter: QPainter, paint: Paint, look: Look) -> None:
         _text(painter, rect, notes[paint.note], holds.muted, SMALL_SIZE, flags=Qt.AlignmentFlag.AlignLeft)
 
 
-def _message(painter: QPainter, text: str, look: Look, width: int, height: int) -> None:
+def draw_message(painter: QPainter, text: str, look: Look, width: int, height: int) -> None:
+    """A sentence in the middle of a pane that has nothing else to show."""
     rect = QRectF(MARGIN, height / 2 - 30, width - 2 * MARGIN, 60)
     flags = Qt.AlignmentFlag.AlignHCenter | Qt.TextFlag.TextWordWrap
     _text(painter, rect, text, theme.colours(look.theme).muted, 13, flags=flags)

@@ -32,7 +32,7 @@ from floorcast_app.translation import tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.plan_camera import framed
 from floorcast_app.viewports.space_buttons import ViewButtons
-from floorcast_app.viewports.space_overlay import Overlay, draw_overlay
+from floorcast_app.viewports.space_overlay import Overlay, draw_message, draw_overlay
 from floorcast_app.viewports.space_pointer import SpacePointer
 from floorcast_app.workbench import Workbench
 from floorplan_core.model import FloorPlan
@@ -239,6 +239,7 @@ class SpaceView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         if self.frame is None:
             painter.fillRect(self.rect(), self.palette().window())
+            draw_message(painter, self._message(), self.workbench.view.look, self.width(), self.height())
         else:
             painter.drawImage(QRectF(self.rect()), self._image)
             subject = self.subject(self.width(), self.height())

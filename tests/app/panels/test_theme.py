@@ -69,7 +69,7 @@ def test_the_style_sheet_is_complete_and_the_font_is_the_bundled_one(qapp: QAppl
 def test_figures_have_equal_width(qapp: QApplication) -> None:
     from PySide6.QtGui import QFontMetricsF
 
-    metrics = QFontMetricsF(theme.font(20))
+    metrics = QFontMetricsF(theme.font(20, figures=True))
     assert len({metrics.horizontalAdvance(figure) for figure in "0123456789"}) == 1
 
 
