@@ -22,6 +22,7 @@ Bounds = tuple[float, float, float, float]
 
 LEVEL = 0.02  # m, a floor's triangles lie this near to the lowest point of the space
 FLAT = 0.99  # cosine: a triangle that faces straight down
+UPRIGHT = 0.01  # cosine: a face whose normal lies this level
 STRAIGHT = 1e-4  # radians of yaw below which the model's own axes are those of the building
 QUARTER = np.pi / 2
 
@@ -94,15 +95,14 @@ def _products(model: Any, kind: str) -> Iterator[Product]:
 
 
 def _yaw(walls: list[Product]) -> float:
-    """Angle of the walls to the axes of the model, -45 to 45 degrees: circular mean of the level edges."""
+    """Angle of the walls to the axes of the model, -45 to 45 degrees: mean of their upright faces."""
     total = 0j
     for wall in walls:
-        ends = wall.vertices[wall.faces]
-        edges = (ends - np.roll(ends, 1, axis=1)).reshape(-1, 3)
-        flat = edges[np.abs(edges[:, 2]) < LEVEL]
-        lengths = np.hypot(flat[:, 0], flat[:, 1])
-        # Diagonals of triangles come at every angle; the square lets the long edges of long walls win.
-        total += complex(np.sum(lengths**2 * np.exp(4j * np.arctan2(flat[:, 1], flat[:, 0]))))
+        a, b, c = np.moveaxis(wall.vertices[wall.faces], 1, 0)
+        normal = np.cross(b - a, c - a)  # as long as twice the face's area
+        upright = normal[np.abs(normal[:, 2]) < UPRIGHT * np.linalg.norm(normal, axis=1)]
+        areas = np.hypot(upright[:, 0], upright[:, 1])
+        total += complex(np.sum(areas * np.exp(4j * np.arctan2(upright[:, 1], upright[:, 0]))))
     yaw = float(np.angle(total)) / 4 if total else 0.0
     return 0.0 if abs(yaw) < STRAIGHT else yaw
 

@@ -52,6 +52,10 @@
    <translation>Eine CAD-Zeichnung in Metern: Wände, Türen, Flächen, Maße; Vorhergesagtes auf eigenen Layern.</translation>
   </message>
   <message>
+   <source>A building model: spaces, walls, doors; predicted walls on a layer of their own.</source>
+   <translation>Ein Gebäudemodell: Räume, Wände, Türen; vorhergesagte Wände auf eigener Ebene.</translation>
+  </message>
+  <message>
    <source>A corridor opens into a hall</source>
    <translation>Ein Flur mündet in eine Halle</translation>
   </message>
