@@ -154,7 +154,7 @@ def planned(path: Path) -> int:
     from floorplan_core.plugins import default_registry
     from floorplan_core.readers import open_survey
 
-    return process(open_survey(path, registry=default_registry())).point_count
+    return process(open_survey(path, registry=default_registry(), colours=False)).point_count
 
 
 def measure(path: Path, how: str) -> dict[str, float]:

@@ -34,6 +34,7 @@ class ReadOptions:
 
     input: InputConfig
     trajectory: Path | None = None
+    colours: bool = True  # False: nobody will look at colours and intensities, a reader may leave them out
 
 
 @runtime_checkable

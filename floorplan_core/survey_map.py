@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 
 import numpy as np
@@ -61,6 +61,8 @@ class SurveyMap:
         self._path: list[Float] = []
         self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
         self._pool = ThreadPoolExecutor(1)
+        self._carving: Future[None] = Future()  # the second thread's share of the last chunk
+        self._carving.set_result(None)
         self._lattice: float | None = (
             None  # m between the points of a voxel map; 0: none; None: not known yet
         )
@@ -119,6 +121,7 @@ class SurveyMap:
                 self.own = own_frame(first, level=not self.planar)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
+        self._carving.result()
         self.rays.take(self._more_rays)
 
     def finish(self) -> None:
@@ -154,6 +157,7 @@ class SurveyMap:
     def _mark_free(self, centres: Points, side: float) -> None:
         """Free voxels that the file itself knows (an OctoMap): they need no viewpoints."""
         seconds = stopwatch()
+        self._carving.result()
         self.rays.mark(subdivide(centres, side, self.surfels.size), FILE_RAYS)
         self.seconds += seconds()
 
@@ -181,7 +185,7 @@ class SurveyMap:
         self._lattice, self.planar, self.own, self._sample = None, False, OwnFrame(), None
 
     def _add(self, points: Points, scan: NDArray[np.int32], origins: Float) -> None:
-        seconds = stopwatch()
+        seconds, given = stopwatch(), points
         points, scan, origins = self._prepared(points, scan, origins)
         piece = max(PIECE, len(points) // PIECES)
         pieces = deque(range(0, len(points), piece))
@@ -192,10 +196,12 @@ class SurveyMap:
                     part = slice(start := pieces.popleft(), start + piece)
                     rays.carve(points[part], scan[part], origins, self._limits)
 
-        carving = self._pool.submit(carve, self.rays)
+        before, self._carving = self._carving, self._pool.submit(carve, self.rays)
         self.surfels.insert(points, scan, origins, self._limits)
         carve(self._more_rays)
-        carving.result()
+        before.result()  # of the chunk before: the last rays of this one are followed beside the next
+        if points is given:
+            self._carving.result()  # an array of the caller, who may use it for something else now
         self._check_rays()
         self.seconds += seconds()
 

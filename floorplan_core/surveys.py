@@ -17,14 +17,16 @@ def open_survey(
     trajectory: Path | str | None = None,
     config: InputConfig | None = None,
     observer: Observer | None = None,
+    colours: bool = True,
 ) -> Reconstruction:
     """Open a file, a folder, or several as one survey, with the readers of all plugins that work.
 
     :param trajectory: the poses, where they do not lie beside the cloud.
+    :param colours: False leaves out colours and intensities, which no plan needs, where that saves time.
 
     Raises :class:`InputError` with one sentence for what cannot be read or is not what it claims.
     """
     from floorplan_core.plugins import default_registry
     from floorplan_core.readers import opening
 
-    return opening.open_survey(path, trajectory, config, observer, default_registry())
+    return opening.open_survey(path, trajectory, config, observer, default_registry(), colours)

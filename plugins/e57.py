@@ -56,7 +56,7 @@ class E57Reader:
 
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
         """Open the file; :class:`InputError` where it is damaged or holds no points."""
-        source = e57_source(path, options.trajectory is not None)
+        source = e57_source(path, options.trajectory is not None, options.colours)
         try:
             return assemble(source, options, observer)
         except WrongTrajectory as error:
@@ -66,13 +66,18 @@ class E57Reader:
             return assemble(_without_sensors(source), options, observer)
 
 
-def e57_source(path: Path, trajectory_given: bool = False) -> PointSource:
-    """The points of all scans."""
-    from floorcast_plugins._e57_scans import check_file, list_scans  # kernels: only for files that need them
+def e57_source(path: Path, trajectory_given: bool = False, colours: bool = True) -> PointSource:
+    """The points of all scans; without ``colours`` and intensities if nobody wants them."""
+    from floorcast_plugins._e57_scans import (
+        SEEN,
+        check_file,
+        list_scans,
+    )  # kernels: only for files that need them
 
     scans = list_scans(path, check_file(path))
     if not scans:
         raise EmptyInput(f"{path.name} is an E57 file without points.")
+    scans = scans if colours else [replace(scan, fields=scan.fields.difference(SEEN)) for scan in scans]
     by_time = trajectory_given and all("timeStamp" in scan.fields for scan in scans)
     sensors = all(scan.from_sensor for scan in scans) and not by_time
     sample = _sample(path, scans)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -38,7 +39,6 @@ from floorplan_core.api import (
 )
 
 RGB = ("red", "green", "blue")
-NOISE = (7, 18)  # ASPRS classes: low point, high noise
 LAYERS = {
     "classification": "CLASSIFICATION",
     "withheld": "FLAGS",
@@ -48,7 +48,9 @@ LAYERS = {
 }
 CHUNK_BYTES = 64 << 20  # of records: wide ones come in smaller chunks
 SAMPLE_BLOCKS = 128  # of LAS
-LAZ_PIECE = 100_000  # points: decoding holds the interpreter lock, 0.3 to 0.7 s for a whole chunk of ours
+# points: decoding holds the interpreter lock, 0.3 to 0.7 s for a whole chunk of ours; two of the 50,000 that
+# writers pack together, which lazrs unpacks side by side
+LAZ_PIECE = 100_000
 SAMPLE_CHUNKS = 8  # of LAZ, where each place costs the decoding of a whole chunk of 50,000 points
 
 
@@ -70,14 +72,15 @@ class LasReader:
 
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
         """Open the file; :class:`InputError` where header and contents do not agree."""
-        return assemble(las_source(path, observer), options, observer)
+        return assemble(las_source(path, observer, options.colours), options, observer)
 
 
-def las_source(path: Path, observer: Observer) -> PointSource:
-    """The points of a LAS or LAZ file."""
+def las_source(path: Path, observer: Observer, colours: bool = True) -> PointSource:
+    """The points of a LAS or LAZ file; without ``colours``, neither those nor intensities are unpacked."""
     head = read_las_head(path)
     with _opened(path) as file, damaged(path.name, "LAS file"):
         names = tuple(file.header.point_format.dimension_names)
+        names = names if colours else tuple(n for n in names if n not in (*RGB, "intensity"))
         crs, unit = reference_system(file.header.vlrs)
         if head.compressed:
             check_chunks(path, head, file.header.vlrs)
@@ -140,56 +143,59 @@ def _counted_chunks(
 
 def _chunks(path: Path, head: LasHead, names: tuple[str, ...]) -> Iterator[tuple[RawChunk, int]]:
     """Points, and how many were noise, a chunk at a time."""
-    size = _chunk_size(head)
+    size, piece = _chunk_size(head)
     with _opened(path, names) as file:
         left = head.count
         while left > 0:
             wanted = min(size, left)
             with damaged(path.name, "LAS file"):
-                read, chunk = _read(file, wanted, LAZ_PIECE if head.compressed else wanted, names)
+                read, chunk, noise = _gather(_pieces(file, wanted, piece), wanted, names)
             if read < wanted:
                 raise InputError(
                     f"{path.name} is truncated: its header promises {head.count:,} points, "
                     f"{head.count - left + read:,} of them exist."
                 )
             left -= read
-            yield chunk
+            yield chunk, noise
 
 
-def _read(file: Any, wanted: int, piece: int, names: tuple[str, ...]) -> tuple[int, tuple[RawChunk, int]]:
-    """How many of so many records were there, and their points, read a piece at a time."""
-    parts, read = [], 0
-    while read < wanted:
-        records = file.read_points(min(piece, wanted - read))
-        if not len(records):
-            break
-        parts.append(_points(records, names))
-        read += len(records)
-    if len(parts) < 2:
-        return read, parts[0] if parts else _points(file.read_points(0), names)
-    return read, (join_chunks([points for points, _ in parts]), sum(noise for _, noise in parts))
+def _chunk_size(head: LasHead) -> tuple[int, int]:
+    """Records of a chunk, and of the pieces in which it is read."""
+    size = max(1, min(CHUNK_POINTS, CHUNK_BYTES // head.record))
+    if not head.compressed:
+        return size, size
+    piece = min(LAZ_PIECE, size)
+    return size // piece * piece, piece
 
 
-def _chunk_size(head: LasHead) -> int:
-    return max(1, min(CHUNK_POINTS, CHUNK_BYTES // head.record))
+def _pieces(file: Any, wanted: int, piece: int) -> Iterator[Any]:
+    """So many further records; fewer where the file ends."""
+    while wanted > 0 and len(records := file.read_points(min(piece, wanted))):
+        wanted -= len(records)
+        yield records
 
 
-def _points(records: Any, names: tuple[str, ...]) -> tuple[RawChunk, int]:
-    """Coordinates, scan ids and GPS times of those records that are no noise."""
-    from floorcast_plugins._las_points import scaled  # a kernel: only for files that need it
+def _gather(pieces: Iterator[Any], most: int, names: tuple[str, ...]) -> tuple[int, RawChunk, int]:
+    """How many records there were, ``most`` or fewer, those that are no noise, and how many were."""
+    from floorcast_plugins._las_points import unpack  # a kernel: only for files that need it
 
-    classes = np.asarray(records.classification)
-    bad = np.logical_or.reduce([classes == noise for noise in NOISE])
-    if "withheld" in names:
-        bad |= np.asarray(records.withheld).astype(bool)
-    raw = records.array if not bad.any() else records.array[~bad]
-    points = scaled(raw, records.scales, records.offsets)
-    scan = find_name(names, SCAN_ID_NAMES)
-    ids = None if scan is None else as_scan_id(np.asarray(records[scan])[~bad])
-    stamps = raw["gps_time"].astype(np.float64) if "gps_time" in names else None
-    rgb = as_rgb(np.column_stack([raw[name] for name in RGB])) if set(RGB) <= set(names) else None
-    echo = raw["intensity"].astype(np.float32) if "intensity" in names else None
-    return RawChunk(points, ids, stamps, rgb=rgb, intensity=echo), int(np.count_nonzero(bad))
+    points, columns, read, kept = np.empty((most, 3)), [], 0, 0
+    for records in pieces:
+        good, bad = unpack(records.array, records.scales, records.offsets, points[kept:])
+        columns.append(_columns(records, slice(None) if good == len(bad) else ~bad, names))
+        read, kept = read + len(bad), kept + good
+    found = join_chunks(columns) if columns else RawChunk(points)
+    return read, replace(found, points=points[:kept]), read - kept
+
+
+def _columns(records: Any, good: Any, names: tuple[str, ...]) -> RawChunk:
+    """What the good ones of the records say besides where they are."""
+    raw, scan = records.array, find_name(names, SCAN_ID_NAMES)
+    ids = None if scan is None else as_scan_id(np.asarray(records[scan])[good])
+    stamps = raw["gps_time"][good].astype(np.float64) if "gps_time" in names else None
+    rgb = as_rgb(np.column_stack([raw[name][good] for name in RGB])) if set(RGB) <= set(names) else None
+    echo = raw["intensity"][good].astype(np.float32) if "intensity" in names else None
+    return RawChunk(np.empty((0, 3)), ids, stamps, rgb=rgb, intensity=echo)
 
 
 def _sample(path: Path, head: LasHead, names: tuple[str, ...]) -> RawChunk:
@@ -197,13 +203,15 @@ def _sample(path: Path, head: LasHead, names: tuple[str, ...]) -> RawChunk:
     places = SAMPLE_CHUNKS if head.compressed else SAMPLE_BLOCKS
     length = min(head.count, SAMPLE_POINTS if head.count <= SAMPLE_POINTS else SAMPLE_POINTS // places)
     starts = [0] if length == head.count else np.linspace(0, head.count - length, places).astype(int).tolist()
-    parts = []
     with _opened(path) as file, damaged(path.name, "LAS file"):
-        for start in starts:
-            if start:
-                file.seek(start)
-            parts.append(_points(file.read_points(length), names)[0])
-    return join_chunks(parts)
+        return _gather(_records_at(file, starts, length), len(starts) * length, names)[1]
+
+
+def _records_at(file: Any, starts: list[int], length: int) -> Iterator[Any]:
+    for start in starts:
+        if start:
+            file.seek(start)
+        yield file.read_points(length)
 
 
 def _tells_time(sample: RawChunk) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 
+from floorplan_core.config import Config
 from floorplan_core.errors import InputError
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.geometry import ray_carving, surfel_map
@@ -210,6 +212,30 @@ def test_an_area_seen_again_takes_no_more_memory():
         if planner.map.surfels.points >= SAMPLE:  # before, the axes of the map are not decided for good
             sizes.append((len(planner.map.surfels), planner.map.rays.blocks))
     assert len(sizes) > 1 and len(set(sizes)) == 1
+
+
+def test_a_buffer_is_the_callers_again_after_each_chunk(monkeypatch):
+    """Rays that are followed beside the next chunk have arrays of their own."""
+    slow, buffers, config = ray_carving.MissMap.carve, np.empty((2, SAMPLE, 3)), Config()
+    config = config.model_copy(update={"voxels": config.voxels.model_copy(update={"own_axes": False})})
+
+    def carve(self, points, *rest):
+        time.sleep(0.02)
+        slow(self, points, *rest)
+
+    monkeypatch.setattr(ray_carving.MissMap, "carve", carve)
+    path, rng = Trajectory(np.zeros(1), np.eye(4)[None]), np.random.default_rng(4)
+    planners = FloorPlanner(config), FloorPlanner(config)
+    for _ in range(3):
+        points = rng.uniform(-3, 3, (SAMPLE, 3))
+        for planner, buffer in zip(planners, buffers, strict=True):
+            buffer[:] = points
+            planner.integrate_chunk(PointChunk(buffer, np.zeros(SAMPLE, dtype=np.int32)), path)
+        buffers[1] = 1.0  # the first planner's stays until its next chunk comes
+    for planner in planners:
+        planner.map.settle()
+    counts = [np.sort(p.map.rays._pool.sum(axis=1, dtype=np.int64)) for p in planners]
+    np.testing.assert_array_equal(*counts)
 
 
 def test_waiting_points_are_the_planners_own():

@@ -69,7 +69,7 @@ def describe_survey(
     from floorplan_core.plugins import default_registry
     from floorplan_core.readers import open_survey
 
-    opened = open_survey(survey, trajectory, config.input, observer, default_registry())
+    opened = open_survey(survey, trajectory, config.input, observer, default_registry(), colours=False)
     announce_compilation(observer)
     from floorplan_core.survey_info import describe  # after opening: bad input is answered at once
 

@@ -150,7 +150,7 @@ def open_input(
     from floorplan_core.plugins import default_registry
     from floorplan_core.readers import open_survey
 
-    opened = open_survey(surveys, trajectory, config.input, observer, default_registry())
+    opened = open_survey(surveys, trajectory, config.input, observer, default_registry(), colours=False)
     for sentence in opened.assumptions:
         observer.console.message(sentence)
     return opened

@@ -30,15 +30,15 @@ def world_points(points: NDArray[Any], frame: LocalFrame) -> Float:
 
 
 def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float | None) -> NDArray[np.float32]:
-    """(N, 3) float32 local coordinates.
+    """(N, 3) float32 local coordinates; in float64 where a shift is subtracted or the file has doubles.
 
-    Column by column for the frames that readers make (their rotations only swap axes); in float64 only
-    where a shift is subtracted or the file has doubles.
+    Else column by column (the rotations that readers make only swap axes).
     """
     if T_file_sensor is not None:
         return _moved(points, frame, T_file_sensor)
-    plain = frame.scale == 1.0 and not frame.shift.any() and np.array_equal(frame.rotation, np.eye(3))
-    if plain and points.dtype == np.float32:
+    if points.dtype != np.float32 or frame.shift.any():
+        return _moved(points, frame, np.eye(4))
+    if frame.scale == 1.0 and np.array_equal(frame.rotation, np.eye(3)):
         return points
     out = np.empty(points.shape, dtype=np.float32)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -46,10 +46,7 @@ def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float |
             source = int(np.argmax(np.abs(frame.rotation[axis])))
             factor = frame.scale * frame.rotation[axis, source]
             column = points[:, source]
-            if frame.shift[axis]:
-                out[:, axis] = column.astype(np.float64) * factor - frame.shift[axis]
-            else:
-                out[:, axis] = column if factor == 1.0 else column * column.dtype.type(factor)
+            out[:, axis] = column if factor == 1.0 else column * np.float32(factor)
     return out
 
 

@@ -43,10 +43,12 @@ def open_survey(
     config: InputConfig | None = None,
     observer: Observer | None = None,
     registry: PluginRegistry | None = None,
+    colours: bool = True,
 ) -> Reconstruction:
     """Open a file or folder with the reader that knows its content best; several of them as one survey.
 
-    ``trajectory`` names the poses where they do not lie beside the cloud. Raises :class:`InputError` with
+    ``trajectory`` names the poses where they do not lie beside the cloud. Without ``colours`` those and
+    intensities are not read where that saves time: a plan needs none. Raises :class:`InputError` with
     one sentence for anything that cannot be read or is not what it claims.
     """
     paths = [Path(path)] if isinstance(path, str | Path) else [Path(p) for p in path]
@@ -58,7 +60,7 @@ def open_survey(
     files = [file for p in expand_patterns(paths) for file in clouds_at(p, readers)]
 
     def open_one(number: int, settings: InputConfig) -> Reconstruction:
-        return _open_file(files[number], ReadOptions(settings, given), observer, readers)
+        return _open_file(files[number], ReadOptions(settings, given, colours), observer, readers)
 
     if len(files) == 1:
         opened = _ahead(open_one(0, config or InputConfig()), observer)

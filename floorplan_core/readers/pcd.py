@@ -17,7 +17,7 @@ from floorplan_core.model import Reconstruction, Trajectory
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
-from floorplan_core.readers.colours import ColourColumns, find_colours, intensity_of, rgb_of
+from floorplan_core.readers.colours import NO_COLOURS, ColourColumns, find_colours, intensity_of, rgb_of
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.pcd_header import MAX_HEADER_BYTES, PcdHeader, parse_pcd_header
 from floorplan_core.readers.records import (
@@ -64,7 +64,7 @@ class PcdReader:
 
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
         """Open the file; :class:`InputError` where header and contents do not agree."""
-        return assemble(pcd_source(path), options, observer)
+        return assemble(pcd_source(path, options.colours), options, observer)
 
 
 @dataclass(frozen=True)
@@ -77,13 +77,14 @@ class _Columns:
     colours: ColourColumns
 
 
-def pcd_source(path: Path) -> PointSource:
-    """The points of a PCD file."""
+def pcd_source(path: Path, colours: bool = True) -> PointSource:
+    """The points of a PCD file; without ``colours`` if nobody wants them."""
     with path.open("rb") as handle:
         header = parse_pcd_header(handle.read(MAX_HEADER_BYTES), path.name)
     if header.points == 0:
         raise EmptyInput(f"{path.name} is a PCD file of 0 points.")
     columns = _columns(path, header)
+    columns = columns if colours else replace(columns, colours=NO_COLOURS)
     make = {"ascii": _text_source, "binary": _binary_source, "binary_compressed": _compressed_source}
     return _with_viewpoint(make[header.storage](path, header, columns), header)
 

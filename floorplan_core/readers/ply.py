@@ -10,7 +10,7 @@ from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
-from floorplan_core.readers.colours import find_colours
+from floorplan_core.readers.colours import NO_COLOURS, find_colours
 from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.ply_header import MAX_HEADER_BYTES, PlyElement, PlyHeader, parse_ply_header
 from floorplan_core.readers.ply_lists import constant_record, skip_list_element
@@ -39,11 +39,11 @@ class PlyReader:
 
     def open(self, path: Path, options: ReadOptions, observer: Observer) -> Reconstruction:
         """Open the file; :class:`InputError` where header and contents do not agree."""
-        return assemble(ply_source(path), options, observer)
+        return assemble(ply_source(path, options.colours), options, observer)
 
 
-def ply_source(path: Path) -> PointSource:
-    """The vertices of a PLY file."""
+def ply_source(path: Path, colours: bool = True) -> PointSource:
+    """The vertices of a PLY file; where it is binary, without ``colours`` if nobody wants them."""
     header = read_ply_header(path)
     vertex = header.element("vertex")
     if vertex is None:
@@ -51,7 +51,9 @@ def ply_source(path: Path) -> PointSource:
         raise InputError(f"{path.name} is a PLY file without vertices (its elements: {names}).")
     if vertex.count == 0:
         raise EmptyInput(f"{path.name} is a PLY file of 0 points.")
-    return _binary_source(path, header, vertex) if header.byte_order else _text_source(path, header, vertex)
+    if header.byte_order:
+        return _binary_source(path, header, vertex, colours)
+    return _text_source(path, header, vertex)
 
 
 def read_ply_header(path: Path) -> PlyHeader:
@@ -61,7 +63,7 @@ def read_ply_header(path: Path) -> PlyHeader:
     return parse_ply_header(head, path.name)
 
 
-def _binary_source(path: Path, header: PlyHeader, vertex: PlyElement) -> PointSource:
+def _binary_source(path: Path, header: PlyHeader, vertex: PlyElement, colours: bool) -> PointSource:
     size = path.stat().st_size
     offset = header.size
     for element in header.elements[: header.elements.index(vertex)]:
@@ -81,7 +83,7 @@ def _binary_source(path: Path, header: PlyHeader, vertex: PlyElement) -> PointSo
         _coordinates(path, names),
         find_name(names, SCAN_ID_NAMES),
         find_name(names, STAMP_NAMES),
-        find_colours(names),
+        find_colours(names) if colours else NO_COLOURS,
     )
     return PointSource(
         path,

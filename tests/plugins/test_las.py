@@ -147,14 +147,16 @@ def refusal_with(path, file):
     return str(caught.value)
 
 
-def test_noise_is_left_out_and_counted(tmp_path, cloud):
-    classes = np.zeros(len(cloud), dtype=np.uint8)
-    classes[:7], classes[7:10] = 7, 18
+@pytest.mark.parametrize(("version", "form"), [("1.2", 1), ("1.4", 6)])
+def test_noise_is_left_out_and_counted(tmp_path, cloud, version, form):
+    classes, withheld = np.zeros(len(cloud), dtype=np.uint8), np.zeros(len(cloud), dtype=np.uint8)
+    classes[:7], classes[7:10], withheld[10:12] = 7, 18, 1
     observer = Remembering()
-    survey = opened(write_las(tmp_path / "a.laz", cloud, classification=classes), observer)
-    np.testing.assert_allclose(whole(survey)[0], cloud[10:], atol=6e-5)
+    columns = {"classification": classes, "withheld": withheld}
+    survey = opened(write_las(tmp_path / "a.laz", cloud, version, form, **columns), observer)
+    np.testing.assert_allclose(whole(survey)[0], cloud[12:], atol=6e-5)
     whole(survey)
-    assert sum("10 of the" in text and "noise" in text for text in observer.warnings) == 1
+    assert sum("12 of the" in text and "noise" in text for text in observer.warnings) == 1
 
 
 def test_chunks_are_bounded(tmp_path, cloud, monkeypatch):

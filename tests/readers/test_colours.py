@@ -25,11 +25,19 @@ def cloud() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return xyz, rng.integers(0, 256, (COUNT, 3)).astype(np.uint8), np.arange(COUNT, dtype=np.float32)
 
 
-def read(path: Path) -> PointChunk:
+def read(path: Path, colours: bool = True) -> PointChunk:
     """All points of a small file as one chunk."""
     config = InputConfig(unit="m", up="z")
-    survey = open_survey(path, None, config, Observer(), default_registry())
+    survey = open_survey(path, None, config, Observer(), default_registry(), colours)
     (chunk,) = survey.chunks()
+    return chunk
+
+
+def both_ways(path: Path) -> PointChunk:
+    """The chunk with its colours; without them it has the same points."""
+    chunk, bare = read(path), read(path, colours=False)
+    assert bare.rgb is None and bare.intensity is None
+    np.testing.assert_array_equal(bare.points, chunk.points)
     return chunk
 
 
@@ -47,7 +55,7 @@ def test_binary_ply(tmp_path: Path, cloud: tuple[np.ndarray, ...]) -> None:
     head = f"ply\nformat binary_little_endian 1.0\nelement vertex {COUNT}\n{names}end_header\n"
     path = tmp_path / "cloud.ply"
     path.write_bytes(head.encode() + rows.tobytes())
-    chunk = read(path)
+    chunk = both_ways(path)
     np.testing.assert_array_equal(chunk.rgb, rgb)
     np.testing.assert_array_equal(chunk.intensity, echo)
 
@@ -81,12 +89,13 @@ def test_binary_pcd_with_packed_colours(tmp_path: Path, cloud: tuple[np.ndarray,
     )
     path = tmp_path / "cloud.pcd"
     path.write_bytes(head.encode() + rows.tobytes())
-    chunk = read(path)
+    chunk = both_ways(path)
     np.testing.assert_array_equal(chunk.rgb, rgb)
     np.testing.assert_array_equal(chunk.intensity, echo)
 
 
-def test_las_with_colours_of_16_bits(tmp_path: Path, cloud: tuple[np.ndarray, ...]) -> None:
+@pytest.mark.parametrize("name", ["cloud.las", "cloud.laz"])
+def test_las_with_colours_of_16_bits(tmp_path: Path, cloud: tuple[np.ndarray, ...], name: str) -> None:
     laspy = pytest.importorskip("laspy")
     xyz, rgb, echo = cloud
     header = laspy.LasHeader(point_format=7, version="1.4")
@@ -95,8 +104,8 @@ def test_las_with_colours_of_16_bits(tmp_path: Path, cloud: tuple[np.ndarray, ..
     las.x, las.y, las.z = xyz.T.astype(np.float64)
     las.red, las.green, las.blue = rgb.T.astype(np.uint16) * 257
     las.intensity = echo.astype(np.uint16)
-    las.write(str(tmp_path / "cloud.las"))
-    chunk = read(tmp_path / "cloud.las")
+    las.write(str(tmp_path / name))
+    chunk = both_ways(tmp_path / name)
     np.testing.assert_array_equal(chunk.rgb, rgb)
     np.testing.assert_array_equal(chunk.intensity, echo)
 
@@ -110,7 +119,7 @@ def test_e57_with_colours(tmp_path: Path, cloud: tuple[np.ndarray, ...]) -> None
     data |= {f"color{n}": rgb[:, k] for k, n in enumerate(("Red", "Green", "Blue"))}
     file.write_scan_raw({**data, "intensity": echo})
     file.close()
-    chunk = read(path)
+    chunk = both_ways(path)
     np.testing.assert_array_equal(chunk.rgb, rgb)
     np.testing.assert_allclose(chunk.intensity, echo)
 
