@@ -92,12 +92,14 @@ class Proportions(QObject):
         self._window, self._docks = window, docks
         self._sizes: dict[str, QSize] = {}  # of the docks shown, when nothing moved any more
         self._whole = QSize()  # of the window then
+        self._bars = 0  # px of its height that are no dock's: bars, tabs and titles, which do not grow
         self._follows = QTimer(self, singleShot=True, interval=SETTLED)
         self._follows.timeout.connect(self._follow)
         self._rests = QTimer(self, singleShot=True, interval=0)
         self._rests.timeout.connect(self._remember)
         for dock in docks.values():
             dock.installEventFilter(self)
+            dock.visibilityChanged.connect(lambda _: self._rests.start())  # another tab is in front
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """A border was moved, by the user or by us."""
@@ -110,6 +112,11 @@ class Proportions(QObject):
         if self._sizes and self._window.size() != self._whole:
             self._follows.start()
 
+    def put_back(self) -> None:
+        """Give the docks the sizes they had, when Qt has laid out what is in them now."""
+        self._follows.start()
+        QTimer.singleShot(0, self, self._follows.start)  # that may take longer than it has to settle
+
     @property
     def busy(self) -> bool:
         """True while the docks are about to follow a new size."""
@@ -118,18 +125,19 @@ class Proportions(QObject):
     def kept(self) -> str:
         """The sizes as text, to be given to :meth:`recall` with the arrangement that they belong to."""
         sizes = {id: [size.width(), size.height()] for id, size in self._sizes.items()}
-        return json.dumps({"window": [self._whole.width(), self._whole.height()], "docks": sizes})
+        window = [self._whole.width(), self._whole.height()]
+        return json.dumps({"window": window, "bars": self._bars, "docks": sizes})
 
     def recall(self, kept: str) -> None:
         """Give an arrangement that was kept in a window of another size its proportions back."""
         try:
             read = json.loads(kept)
-            whole = QSize(*map(int, read["window"]))
+            whole, bars = QSize(*map(int, read["window"])), int(read["bars"])
             sizes = {id: QSize(*map(int, size)) for id, size in read["docks"].items() if id in self._docks}
         except (ValueError, TypeError, KeyError, AttributeError):
             return  # somebody else wrote the settings
         if sizes and whole != self._window.size():
-            self._sizes, self._whole = sizes, whole
+            self._sizes, self._whole, self._bars = sizes, whole, bars
             self._follows.start()
 
     def _remember(self) -> None:
@@ -137,16 +145,27 @@ class Proportions(QObject):
             shown = {id: dock for id, dock in self._docks.items() if not dock.visibleRegion().isEmpty()}
             self._sizes = {id: dock.size() for id, dock in shown.items() if not dock.isFloating()}
             self._whole = self._window.size()
+            self._bars = self._whole.height() - _column(shown)
 
     def _follow(self) -> None:
         sizes = {id: size for id, size in self._sizes.items() if self._docks[id].isVisible()}
         tall = [id for id in TALL if id in sizes]  # tabs that lie behind have no say
-        taller = self._window.height() / max(self._whole.height(), 1)
+        taller = (self._window.height() - self._bars) / max(self._whole.height() - self._bars, 1)
         heights = [round(sizes[id].height() * taller) for id in tall]
         self._window.resizeDocks([self._docks[id] for id in tall], heights, V)
         sides = [id for id in SIDES if id in sizes]
         self._window.resizeDocks([self._docks[id] for id in sides], [sizes[id].width() for id in sides], H)
         self._rests.start()
+
+
+def _column(docks: Mapping[str, QDockWidget]) -> int:
+    """Pixels of height of the docks above each other, where the first of :data:`TALL` stands."""
+    standing = {id: dock.geometry() for id, dock in docks.items() if not dock.isFloating()}
+    first = next((id for id in TALL if id in standing), None)
+    if first is None:
+        return 0
+    x = standing[first].center().x()
+    return sum(box.height() for box in standing.values() if box.left() <= x <= box.right())
 
 
 class TitleBars:

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QByteArray, QChildEvent, QPoint, QSettings, QSize, Qt, QTimer
+from PySide6.QtCore import QByteArray, QChildEvent, QLocale, QPoint, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -17,12 +17,14 @@ from PySide6.QtGui import (
     QPainter,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QTabWidget, QWidget
 
-from floorcast_app.actions import MENUS
-from floorcast_app.dialogs.thumbnails import plan_png
+from floorcast_app.dialogs.base import Dialog
+from floorcast_app.dialogs.preferences import PreferencesDialog
+from floorcast_app.dialogs.thumbnails import ThumbnailKeeper, plan_png
 from floorcast_app.dock_layout import Proportions, TitleBars, arrange, tab_bars
 from floorcast_app.dressing import Dresser
+from floorcast_app.menus import fill_menus
 from floorcast_app.panels.assumptions_banner import AssumptionsBanner
 from floorcast_app.panels.empty_state import EmptyState
 from floorcast_app.panels.missing_banner import MissingBanner
@@ -34,27 +36,12 @@ from floorcast_app.qt_actions import QtActions
 from floorcast_app.qt_interface import QtInterface
 from floorcast_app.recent import RecentFiles
 from floorcast_app.toolbar import MainToolbar
-from floorcast_app.translation import tr
+from floorcast_app.translation import install_translator, tr
 from floorcast_app.view_state import Look
 from floorcast_app.viewports.canvas import PlanCanvas
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import OutputError, UsageError
 
-MENU_TITLES = {
-    "file": "File", "edit": "Edit", "view": "View", "plan": "Plan", "tool": "Tools",
-    "correct": "Correct", "measure": "Measure", "help": "Help",
-}  # fmt: skip
-NOT_IN_MENUS = (  # they need arguments: for the palette's settings, for panes and for scripts
-    "view.pane", "view.look", "edit.select", "edit.history", "plan.set", "plan.preset", "measure.set",
-)  # fmt: skip
-MENU_GROUPS = (  # actions that begin a group of their menu
-    "file.save", "file.export", "file.save_recording", "file.close", "edit.delete", "edit.preferences",
-    "view.layer_points",
-    "view.units", "view.inspect", "plan.reset", "plan.storey", "plan.replay", "tool.measure", "tool.split",
-    "correct.accept_door", "correct.relabel", "correct.release", "measure.export", "help.english",
-    "help.about",
-)  # fmt: skip
-SUBMENUS = {"view.layer_": "Layers", "view.colour_": "Points by colour"}  # ids that begin so, and their menu
 DOCKS = 3  # version of the arrangement: one that was kept of other docks or bars is not taken
 LAST_WAIT = 5.0  # s that closing waits for a job that was told to stop
 
@@ -76,21 +63,19 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         self.setTabPosition(Qt.DockWidgetArea.AllDockWidgetAreas, QTabWidget.TabPosition.North)
         self.setDockOptions(self.dockOptions() | QMainWindow.DockOption.GroupedDragging)
-        self.docks = {pane.id: self._dock(pane.id, pane.title, pane.make(workbench)) for pane in PANES}
+        self.docks = {pane.id: self._dock(pane.id) for pane in PANES}
         self._titles = TitleBars(self, self.docks)
         self._proportions = Proportions(self, self.docks)
-        self._fill_menus()
-        self.addToolBar(MainToolbar(workbench, self.actions_by_id, self))
-        self.status = StatusBar(workbench, self)
-        self.setStatusBar(self.status)
         self.toast = Toast(self)
+        self._fill()
+        self.addToolBar(self.toolbar)
         self.banner = None if unattended else AssumptionsBanner(workbench, self)
-        self.empty = EmptyState(workbench, self.recent, self)
         self.missing = None if unattended else MissingBanner(workbench, self)
         self.recovery = None if unattended else RecoveryBanner(workbench, self)
         for banner in (self.banner, self.missing, self.recovery):
             if banner is not None:
                 banner.moved.connect(lambda: self.empty.cover(self))
+        self._keeper = None if unattended else ThumbnailKeeper(self)
         workbench.ui = QtInterface(self)
         workbench.thumbnail = lambda: plan_png(self)
         workbench.view.changed.connect(self._look_changed)
@@ -158,6 +143,33 @@ class MainWindow(QMainWindow):
         if kind != "info" or not self.unattended:  # nobody is there to read that all went well
             self.toast.tell(text, kind)
 
+    def speak(self, language: str) -> None:
+        """Say everything in another language from now on; what is open, done and running stays.
+
+        What has words is made anew, in the docks as they stand.
+        """
+        before, app = QLocale().name(), QApplication.instance()
+        assert isinstance(app, QApplication)
+        install_translator(app, language)
+        if QLocale().name() == before:
+            return
+        dialogs = self.findChildren(Dialog)
+        old = [*(dock.widget() for dock in self.docks.values()), self.toolbar, self.empty, *dialogs]
+        old += [action.menu() for action in self.menuBar().actions()]  # not the one that Qt made itself
+        bar = self.toolbar
+        self._stop_panes()
+        self.actions_by_id.reword()
+        self._fill()
+        self.insertToolBar(bar, self.toolbar)
+        self.removeToolBar(bar)
+        self._proportions.put_back()
+        self._cover()
+        for widget in old:
+            widget.hide()
+            widget.deleteLater()
+        if any(isinstance(dialog, PreferencesDialog) for dialog in dialogs):
+            self.workbench.ui.show("preferences")
+
     # ---- what happens -----------------------------------------------------------------------------------
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -172,10 +184,7 @@ class MainWindow(QMainWindow):
         self.workbench.jobs.wait(LAST_WAIT)
         if self.recovery is not None:
             self.recovery.end()
-        for dock in self.docks.values():
-            stop = getattr(dock.widget(), "shut_down", None)
-            if stop is not None:
-                stop()
+        self._stop_panes()
         super().closeEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -214,12 +223,22 @@ class MainWindow(QMainWindow):
     # ---- inside -----------------------------------------------------------------------------------------
 
     def _survey_changed(self) -> None:
+        self._cover()
+        self._fitted = False
+
+    def _cover(self) -> None:
+        """The empty state lies over the panes where there is no survey."""
         nothing = self.workbench.state.survey is None
         self.empty.setVisible(nothing)
         if nothing:
             self.empty.cover(self)
             self.empty.raise_()
-        self._fitted = False
+
+    def _stop_panes(self) -> None:
+        for dock in self.docks.values():
+            stop = getattr(dock.widget(), "shut_down", None)
+            if stop is not None:
+                stop()
 
     def _plan_changed(self, plan: object) -> None:
         if plan is not None and not self._fitted:
@@ -240,6 +259,8 @@ class MainWindow(QMainWindow):
             self.workbench.view.set(**{name: value})
         elif name == "recent":
             self.empty.refresh()
+        elif name == "language":  # when the menu or dialog that asked for it has had its say
+            QTimer.singleShot(0, self, lambda: self.speak(str(value)))
 
     def _arrange(self, workspace: str) -> None:
         kept = self._settings.value(f"workspace/{workspace}")
@@ -271,45 +292,26 @@ class MainWindow(QMainWindow):
             raise UsageError(f"There is no pane {id!r}; the panes are: {', '.join(self.docks)}.")
         return self.docks[id]
 
-    def _dock(self, id: str, title: str, widget: QWidget) -> QDockWidget:
-        dock = QDockWidget(tr(title), self)
+    def _dock(self, id: str) -> QDockWidget:
+        dock = QDockWidget(self)
         dock.setObjectName(id)
-        dock.setWidget(widget)
-        seen = getattr(widget, "seen", None)
-        if seen is not None:
-            dock.visibilityChanged.connect(seen)
         return dock
 
-    def _fill_menus(self) -> None:
-        menus = {menu: self.menuBar().addMenu(tr(MENU_TITLES[menu])) for menu in MENUS}
-        inner: dict[str, QMenu] = {}
-        for action in self.workbench.actions:
-            menu = menus[action.id.partition(".")[0]]
-            if action.id in NOT_IN_MENUS:
-                continue
-            if action.id in MENU_GROUPS:
-                menu.addSeparator()
-            title = next((t for prefix, t in SUBMENUS.items() if action.id.startswith(prefix)), "")
-            if title and title not in inner:
-                inner[title] = menu.addMenu(tr(title))
-            inner.get(title, menu).addAction(self.actions_by_id[action.id])
-            if action.id == "file.open_folder":
-                menu.addMenu(self._recent_menu())
-        panes = menus["view"].addMenu(tr("Panes"))
-        for dock in self.docks.values():
-            panes.addAction(dock.toggleViewAction())
-
-    def _recent_menu(self) -> QMenu:
-        menu = QMenu(tr("Open recent"), self)
-
-        def fill() -> None:
-            menu.clear()
-            for path in self.recent.paths():
-                menu.addAction(str(path), lambda p=path: self.workbench.try_run("file.open", path=p))
-            menu.setDisabled(False)
-
-        menu.aboutToShow.connect(fill)
-        return menu
+    def _fill(self) -> None:
+        """Make what has words: panes, menus, toolbar, status bar, and what is said without a survey."""
+        for pane in PANES:
+            dock, widget = self.docks[pane.id], pane.make(self.workbench)
+            dock.setWindowTitle(tr(pane.title))
+            dock.setWidget(widget)
+            seen = getattr(widget, "seen", None)
+            if seen is not None:
+                dock.visibilityChanged.connect(seen)
+                seen(not dock.visibleRegion().isEmpty())
+        fill_menus(self)
+        self.toolbar = MainToolbar(self.workbench, self.actions_by_id, self)
+        self.status = StatusBar(self.workbench, self)
+        self.setStatusBar(self.status)
+        self.empty = EmptyState(self.workbench, self.recent, self)
 
     def _window_picture(self, width: int, height: int) -> QImage:
         """The whole window; one smaller than it can be is scaled."""

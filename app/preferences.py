@@ -55,7 +55,7 @@ PREFERENCES = (
         "language",
         "Window",
         "Language",
-        "From the next start on.",
+        "Of the window; an exported drawing has its own.",
         "",
         (("", "As the system"), ("en", "English"), ("de", "Deutsch")),
     ),

@@ -54,24 +54,35 @@ class QtActions(QObject):
                 plain, _ = tr_action(self._workbench.actions[id])
                 self._by_id[id].setText(f"{plain}: {tr_text(text)}" if text else plain)
 
+    def reword(self) -> None:
+        """Words of the present language."""
+        for id, qt in self._by_id.items():
+            self._word(qt, self._workbench.actions[id])
+        self.refresh()
+
     def retinting(self) -> list[Callable[[], None]]:
         """Icons in the colours of the present theme, one at each call: they are drawn anew."""
         named = [(qt, self._workbench.actions[id].icon) for id, qt in self._by_id.items()]
         return [lambda qt=qt, name=name: qt.setIcon(icon(name)) for qt, name in named if name]  # type: ignore[misc]
 
     def _make(self, action: Action) -> QAction:
-        text, tip = tr_action(action)
-        qt = QAction(text, self)
+        qt = QAction(self)
         if action.shortcut:
             qt.setShortcuts([QKeySequence(s.strip()) for s in action.shortcut.split(" | ")])
         if action.icon:
             qt.setIcon(icon(action.icon))
+        qt.setCheckable(action.checked is not None)
+        qt.triggered.connect(self._runner(action.id))
+        self._word(qt, action)
+        return qt
+
+    def _word(self, qt: QAction, action: Action) -> None:
+        text, tip = tr_action(action)
+        qt.setText(text)
+        qt.setIconText("")  # Qt makes it of the text
         keys = f" ({qt.shortcut().toString()})" if action.shortcut else ""
         qt.setToolTip(f"{text.rstrip('…')}{keys}\n{tip}" if tip else text)
         qt.setStatusTip(tip)
-        qt.setCheckable(action.checked is not None)
-        qt.triggered.connect(self._runner(action.id))
-        return qt
 
     def _runner(self, id: str) -> Callable[[], None]:
         def run() -> None:

@@ -6,6 +6,7 @@ from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
 
+from floorcast_app.panels.base import listener_of
 from floorcast_app.panels.storey_chooser import StoreyChooser
 from floorcast_app.qt_actions import QtActions
 from floorcast_app.translation import tr
@@ -97,7 +98,8 @@ class MainToolbar(QToolBar):
             shown.setVisible(chooser.wanted)
             self._respell.start()
 
-        self._workbench.plan_changed.connect(follow)
+        changed = self._workbench.plan_changed
+        changed.connect(listener_of(self, follow, changed))
         chooser.refilled.connect(self._respell.start)
         shown.setVisible(chooser.wanted)
 

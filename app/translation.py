@@ -28,7 +28,9 @@ LANGUAGES = {"en": "English", "de": "Deutsch"}
 SETTING = "language"  # in the user's settings
 LANGUAGE_VARIABLE = "FLOORCAST_LANGUAGE"  # "de" or "en": before the user's choice and the system's language
 
-_NUMBER = re.compile(r"-?[\d,]*\.\d+( \S+)?")
+_NUMBER = re.compile(r"-?[\d,]*\.\d+( \S+)?|-?\d{1,3}(,\d{3})+")
+_GAP = re.compile(r"\{(\d+)\}")
+_BETWEEN = re.compile(r"(?<=[.!?]) +(?=\S)")  # two sentences
 _MARKS = {"en": (".", ","), "de": (",", ".")}  # the decimal mark, and what parts thousands
 _LOCALES = {"en": "en_GB", "de": "de_DE"}  # of the fields that numbers are typed into
 
@@ -55,7 +57,10 @@ def tr_action(action: Action) -> tuple[str, str]:
 
 
 def tr_text(text: str) -> str:
-    """A whole sentence that a Qt-free module composed; unchanged where no sentence of the catalogue fits."""
+    """What a Qt-free module composed, the core's errors and warnings too: by its sentence of the catalogue.
+
+    Where none fits the whole, sentence by sentence; unchanged where none fits.
+    """
     whole = tr(text)
     if whole != text or not _installed:
         return whole
@@ -64,7 +69,8 @@ def tr_text(text: str) -> str:
         translated = tr(source) if found else source
         if found and translated != source:
             return _filled(translated, [_part(group) for group in found.groups()])
-    return text
+    sentences = _BETWEEN.split(text)
+    return " ".join(map(tr_text, sentences)) if len(sentences) > 1 else text
 
 
 def choose_language(wanted: str = "") -> str:
@@ -76,10 +82,10 @@ def choose_language(wanted: str = "") -> str:
 
 
 def install_translator(app: QApplication, wanted: str = "") -> str:
-    """Show everything in the chosen language from now on; returns it."""
+    """Show what is made from now on in a language: the one wanted, else the chosen one; returns it."""
     while _installed:
         app.removeTranslator(_installed.pop())
-    language = choose_language(wanted or str(QSettings().value(SETTING, "")))
+    language = wanted if wanted in LANGUAGES else choose_language(str(QSettings().value(SETTING, "")))
     format.use_marks(*_MARKS[language])
     QLocale.setDefault(QLocale(_LOCALES[language]))
     if language == "en":
@@ -98,14 +104,14 @@ def install_translator(app: QApplication, wanted: str = "") -> str:
 
 @lru_cache(maxsize=1)
 def _patterns() -> tuple[tuple[re.Pattern[str], str], ...]:
-    """The catalogue's sentences with gaps; the longest first, so that the most exact one wins."""
+    """The catalogue's sentences with gaps; the one with most of its own words first: it says most exactly."""
     sources = theme.resource("translations", "sentences.txt").read_text(encoding="utf-8").splitlines()
-    return tuple((_as_pattern(s), s) for s in sorted(filter(None, sources), key=lambda s: (-len(s), s)))
+    return tuple((_as_pattern(s), s) for s in sorted(sources, key=lambda s: (-len(_GAP.sub("", s)), s)))
 
 
 def _as_pattern(source: str) -> re.Pattern[str]:
     parts = re.split(r"\{\d+\}", source)
-    return re.compile("(.+?)".join(re.escape(p) for p in parts))
+    return re.compile("(.+?)".join(re.escape(p) for p in parts), re.DOTALL)
 
 
 def _part(group: str) -> str:
@@ -114,4 +120,4 @@ def _part(group: str) -> str:
 
 
 def _filled(translated: str, groups: Sequence[str]) -> str:
-    return re.sub(r"\{(\d+)\}", lambda m: groups[int(m[1])], translated)
+    return _GAP.sub(lambda m: groups[int(m[1])], translated)

@@ -7,12 +7,13 @@ Qt's own lupdate does not know that menus, settings, presets and columns are dat
 are declared. Strings: literals given to ``tr``, ``translate`` and the like; texts and tips of actions;
 titles, tips and words in the tables of the panels; settings, preferences, presets. Sentences with gaps:
 f-strings that modules without Qt give to ``tell``, ``change``, ``apply``, ``correct``, ``start`` and to
-errors they raise.
+errors they raise; and all phrases of the core and the plugins, outside of what the window never shows.
 """
 
 from __future__ import annotations
 
 import ast
+import itertools
 import re
 import subprocess
 import sys
@@ -34,16 +35,22 @@ TABLES = {  # module-level tables whose strings are shown: all of them, or the v
     "EVIDENCE", "WORDS", "MENU_WORDS", "MENU_TITLES", "GESTURES", "SIZES",
     "SUBMENUS", "hint", "area_hint", "plane_hint", "door_hint", "nowhere", "empty",  # of tools and plan panes
 }  # fmt: skip
-CORE = (  # modules of the core whose sentences reach the window as warnings or assumptions
-    "layout_islands.py",
-    "layout_wings.py",
-    "pipeline.py",
-    "readers/axes.py",
-    "stages/corrections_doors.py",
-    "stages/corrections_islands.py",
-    "stages/corrections_regions.py",
-    "stages/corrections_walls.py",
-    "stages/exact_cover.py",
+UNSHOWN = (  # parts of the core whose words the window does not show, or shows as data
+    "__init__.py",
+    "cli",
+    "config.py",
+    "drawing_style.py",
+    "evaluation",
+    "exporters",
+    "intermediates.py",
+    "intermediates_tree.py",
+    "open3d_import.py",
+    "restart.py",
+    "settings_table.py",
+    "simulation",
+)
+_PHRASE = re.compile(  # two words, or one and a gap; no line of a header or a program
+    r"(?s)\s?[^\W\d_]{2,} \{\d+\}|(?=.*([^\W\d_]{2}|\}),?:? [^\W\d_])(?!.*[<>_=]\{).*[a-z]{2}.*"
 )
 _COUNTS = re.compile(r"%L?n")
 LETTERS = {"N", "E", "S", "W"}  # of the compass
@@ -54,6 +61,10 @@ EXTRA = (  # words of the core that lists show
     "resized",
     "door {0}", "region {0}", "wall {0}", "doors {0} and {1}", "regions {0} and {1}", "walls {0} and {1}",
     "{0} doors", "{0} regions", "{0} walls",
+    "The input {0} does not exist.", "The trajectory {0} does not exist.", "input", "trajectory",
+    "The input {0} is a link to something that does not exist.",
+    "a folder", "a pipe", "a socket", "a device", "No such file or directory", "Permission denied",
+    "{0} scans", "a plugin", "none", "GPS time",
     "Room {0}",
     "Corridor {0}",
     "floor to ceiling is then {0} m", "the height is then {0} m",
@@ -69,9 +80,10 @@ def strings() -> set[str]:
     found = set(EXTRA)
     for path in sorted((ROOT / "app").rglob("*.py")):
         found |= set(_of_module(ast.parse(path.read_text(encoding="utf-8"))))
-    for name in CORE:
-        path = ROOT / "floorplan_core" / name
-        found |= set(_sentences_of(ast.parse(path.read_text(encoding="utf-8"))))
+    for folder in ("floorplan_core", "plugins"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            if not any((ROOT / folder / name) in (path, *path.parents) for name in UNSHOWN):
+                found |= set(_phrases_of(ast.parse(path.read_text(encoding="utf-8"))))
     shown = {
         s
         for s in (*found, *_actions(), *_settings(), *_preferences(), *_presets(), *_formats())
@@ -93,13 +105,19 @@ def _of_module(tree: ast.Module) -> Iterator[str]:
             yield from _of_table(node)
 
 
-def _sentences_of(tree: ast.Module) -> Iterator[str]:
-    """Strings that begin like a sentence and end like one, docstrings left out."""
+def _phrases_of(tree: ast.Module) -> Iterator[str]:
+    """Strings of two words and more, docstrings left out: what the core says, and the parts of it."""
     docs = {id(n.value) for n in ast.walk(tree) if isinstance(n, ast.Expr)}
     inner = {id(v) for n in ast.walk(tree) if isinstance(n, ast.JoinedStr) for v in n.values}
     for node in ast.walk(tree):
         if isinstance(node, ast.JoinedStr | ast.Constant) and id(node) not in docs | inner:
-            yield from (s for s in _texts(node) if re.fullmatch(r"[A-Z].* .*\.", s))
+            yield from (_numbered(s.strip()) for s in _texts(node) if _PHRASE.fullmatch(s))
+
+
+def _numbered(template: str) -> str:
+    """A template of ``str.format`` with numbered gaps, as those of f-strings are."""
+    count = itertools.count()
+    return re.sub(r"\{[^{}]*\}", lambda _: f"{{{next(count)}}}", template)
 
 
 def _of_call(node: ast.Call) -> Iterator[str]:

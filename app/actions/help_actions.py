@@ -26,8 +26,8 @@ def about(workbench: Workbench) -> None:
 
 
 def language(workbench: Workbench, name: str) -> None:
-    """Speak another language from the next start on."""
-    workbench.ui.show("language", language=name)
+    """Speak another language from now on."""
+    workbench.preferences.set("language", name)
 
 
 ACTIONS: tuple[Action, ...] = (
@@ -46,7 +46,7 @@ ACTIONS: tuple[Action, ...] = (
         "help.english",
         "English",
         lambda w: language(w, "en"),
-        "Speak English from the next start on.",
+        "Speak English.",
         "",
         "languages",
     ),
@@ -54,7 +54,7 @@ ACTIONS: tuple[Action, ...] = (
         "help.german",
         "Deutsch",
         lambda w: language(w, "de"),
-        "Speak German from the next start on.",
+        "Speak German.",
         "",
         "languages",
     ),

@@ -41,13 +41,16 @@ class AssumptionsBanner(Banner):
         self.hide()
 
     def _plan_changed(self, plan: object) -> None:
-        survey, guesses = self._workbench.state.survey, self.guesses()
-        if plan is None or not guesses or self._shown_for == survey:
+        survey = self._workbench.state.survey
+        if plan is None or not self.guesses() or self._shown_for == survey:
             return
         self._shown_for = survey
+        self.say(self._ask)
+
+    def _ask(self) -> None:
         self.unit = self._choice("input.unit", UNITS, tr("Unit as guessed"))
         self.up = self._choice("input.up", AXES, tr("Up axis as guessed"))
-        self.ask("info", " ".join(guesses), self.unit, self.up, answer(tr("Looks right"), self.hide))
+        self.ask("info", " ".join(self.guesses()), self.unit, self.up, answer(tr("Looks right"), self.hide))
 
     def _choice(self, setting: str, words: tuple[str, ...], first: str) -> QComboBox:
         box = QComboBox()

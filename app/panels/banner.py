@@ -39,13 +39,13 @@ class Banner(QToolBar):
         self.toggleViewAction().setVisible(False)
         self._icon = ""
         self._wanted = False
+        self._again: Callable[[], None] | None = None  # asks the same in the words of the present language
         self.mark, self.text = QLabel(), QLabel()
         self.text.setWordWrap(True)
         self._answers = QHBoxLayout()
         self._answers.setSpacing(GRID)
         self.close_button = QToolButton()
         icons.set_icon(self.close_button, "x", "muted")
-        self.close_button.setToolTip(tr("Dismiss"))
         self.close_button.clicked.connect(self.hide)
         self._line = self._make_line()
         self.addWidget(self._line)
@@ -56,10 +56,16 @@ class Banner(QToolBar):
         window.addToolBar(self)
         self.hide()
 
+    def say(self, question: Callable[[], None]) -> None:
+        """Ask by a function that calls :meth:`ask`; once more where the language changes meanwhile."""
+        self._again = question
+        question()
+
     def ask(self, icon: str, text: str, *answers: QWidget) -> None:
         """Show ``text`` with widgets that answer it at its right."""
         self._icon = icon
         self._tint()
+        self.close_button.setToolTip(tr("Dismiss"))
         self.text.setText(text)
         clear(self._answers)
         for answer in answers:
@@ -81,6 +87,8 @@ class Banner(QToolBar):
         super().changeEvent(event)
         if event.type() == QEvent.Type.StyleChange and self._icon:
             self._tint()
+        if event.type() == QEvent.Type.LanguageChange and self._wanted and self._again is not None:
+            self._again()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QMainWindow, QPushButton, QToolButton, QWidget
 
 from floorcast_app import icons, theme
-from floorcast_app.dialogs.thumbnails import ThumbnailKeeper, thumbnail
+from floorcast_app.dialogs.thumbnails import thumbnail
 from floorcast_app.panels.base import GRID, clear, column, label, listener_of, row
 from floorcast_app.translation import tr
 from floorcast_app.workbench import Workbench
@@ -42,8 +42,6 @@ class EmptyState(QWidget):
     def __init__(self, workbench: Workbench, recent: RecentFiles, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._workbench, self._recent = workbench, recent
-        if parent is not None and not getattr(parent, "unattended", True):
-            self._keeper = ThumbnailKeeper(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setProperty("role", "empty")
         self.drop = DropZone(workbench)

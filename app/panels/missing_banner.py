@@ -26,6 +26,9 @@ class MissingBanner(Banner):
             event.connect(listener_of(self, then, event))
 
     def _missing(self, path: Path) -> None:
+        self.say(lambda: self._ask_for(path))
+
+    def _ask_for(self, path: Path) -> None:
         text = tr("{name} is not where it was, in {folder}. Corrections and checks wait until it is found.")
         self.ask(
             "search",

@@ -35,7 +35,9 @@ class RecoveryBanner(Banner):
         if not found:
             self.hide()
             return
-        newest = found[0]
+        self.say(lambda: self._offer(found[0]))
+
+    def _offer(self, newest: Recoverable) -> None:
         when = datetime.fromtimestamp(newest.when).strftime("%Y-%m-%d %H:%M")
         text = tr("Floorcast did not end well. {title} was kept as it was at {when}.")
         self.ask(

@@ -27,7 +27,6 @@ class Toast(QFrame):
         self._icon, self._text, self._close = QLabel(), QLabel(), QToolButton()
         self._text.setWordWrap(True)
         self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._close.setToolTip(tr("Dismiss"))
         self._close.clicked.connect(self.hide)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(2 * GRID, GRID, GRID, GRID)
@@ -51,6 +50,7 @@ class Toast(QFrame):
         """Say ``text``; ``kind``: "info", "warning" or "error"."""
         self.kind = kind if kind in SECONDS else "info"
         self._text.setText(tr_text(text))
+        self._close.setToolTip(tr("Dismiss"))
         self._dress()
         self._place()
         self.show()

@@ -56,12 +56,24 @@
    <translation>Ein Gebäudemodell: Räume, Wände, Türen; vorhergesagte Wände auf eigener Ebene.</translation>
   </message>
   <message>
+   <source>A building of {0} x {1} m that stands apart gives no plan: {2}</source>
+   <translation>Ein Gebäude von {0} x {1} m, das für sich steht, ergibt keinen Plan: {2}</translation>
+  </message>
+  <message>
+   <source>A chunk of the recording was refused: {0} bytes unpack to more than {1}, which no sensor writes.</source>
+   <translation>Ein Block der Aufzeichnung wurde abgelehnt: {0} Bytes ergeben entpackt mehr als {1}, wie es kein Sensor schreibt.</translation>
+  </message>
+  <message>
    <source>A corridor opens into a hall</source>
    <translation>Ein Flur mündet in eine Halle</translation>
   </message>
   <message>
    <source>A corridor up to this wide ends where it opens into a hall.</source>
    <translation>Ein Flur bis zu dieser Breite endet, wo er in eine Halle mündet.</translation>
+  </message>
+  <message>
+   <source>A depth image has the form {0}; of compressed ones only PNG is read: republish the images uncompressed.</source>
+   <translation>Ein Tiefenbild hat die Form {0}; von den komprimierten wird nur PNG gelesen: die Bilder unkomprimiert veröffentlichen.</translation>
   </message>
   <message>
    <source>A distance between two points.</source>
@@ -132,6 +144,18 @@
    <translation>Ein ebener Scan: Wände wie Möbel gelten als raumhoch.</translation>
   </message>
   <message>
+   <source>A point of {0} refers to scan {1}; scan ids count from 0.</source>
+   <translation>Ein Punkt von {0} bezieht sich auf Scan {1}; Scans zählen ab 0.</translation>
+  </message>
+  <message>
+   <source>A pose must be a 4 x 4 matrix of finite numbers (given {0}).</source>
+   <translation>Eine Pose muss eine Matrix von 4 x 4 endlichen Zahlen sein (angegeben: {0}).</translation>
+  </message>
+  <message>
+   <source>A resolution of {0} m a pixel for {1} is not between {2} and {3}; it is in metres, like 0.05.</source>
+   <translation>Eine Auflösung von {0} m je Pixel für {1} liegt nicht zwischen {2} und {3}; sie wird in Metern angegeben, etwa 0.05.</translation>
+  </message>
+  <message>
    <source>A shut leaf closes it</source>
    <translation>Ein geschlossenes Türblatt füllt sie</translation>
   </message>
@@ -154,6 +178,10 @@
   <message>
    <source>A wider lintel between two walls that go on beyond it is a beam, and separates nothing.</source>
    <translation>Ein breiterer Sturz zwischen zwei Wänden, die dahinter weitergehen, ist ein Unterzug und trennt nichts.</translation>
+  </message>
+  <message>
+   <source>A wing of {0} m2 at {1} degrees gives no plan: {2}</source>
+   <translation>Ein Gebäudeflügel von {0} m2 unter {1} Grad ergibt keinen Plan: {2}</translation>
   </message>
   <message>
    <source>A wing of {0} m2 stands at {1} degrees to the rest: it is planned in a frame of its own.</source>
@@ -206,6 +234,10 @@
   <message>
    <source>All files</source>
    <translation>Alle Dateien</translation>
+  </message>
+  <message>
+   <source>All points of {0} that were looked at are marked as invalid.</source>
+   <translation>Alle Punkte von {0}, die angesehen wurden, sind als ungültig markiert.</translation>
   </message>
   <message>
    <source>All settings as they come.</source>
@@ -308,6 +340,14 @@
    <translation>Von Hand</translation>
   </message>
   <message>
+   <source>CARMEN log</source>
+   <translation>CARMEN-Protokoll</translation>
+  </message>
+  <message>
+   <source>CARMEN logs: planar scans with corrected poses, also gzipped</source>
+   <translation>CARMEN-Protokolle: ebene Scans mit korrigierten Posen, auch mit gzip gepackt</translation>
+  </message>
+  <message>
    <source>Camera, ceiling cut and section box by numbers.</source>
    <translation>Kamera, Deckenschnitt und Schnittquader nach Zahlen.</translation>
   </message>
@@ -344,8 +384,32 @@
    <translation>Kandidaten, die die gierige Überdeckung gewählt hat</translation>
   </message>
   <message>
+   <source>Cannot read the depth image {0}: {1}.</source>
+   <translation>Das Tiefenbild {0} lässt sich nicht lesen: {1}.</translation>
+  </message>
+  <message>
+   <source>Cannot read the folder {0}: {1}.</source>
+   <translation>Der Ordner {0} lässt sich nicht lesen: {1}.</translation>
+  </message>
+  <message>
+   <source>Cannot read the trajectory {0}: {1}.</source>
+   <translation>Die Trajektorie {0} lässt sich nicht lesen: {1}.</translation>
+  </message>
+  <message>
+   <source>Cannot read the {0} {1}: {2}.</source>
+   <translation>Die {0} {1} lässt sich nicht lesen: {2}.</translation>
+  </message>
+  <message>
+   <source>Cannot read {0}: {1}.</source>
+   <translation>{0} lässt sich nicht lesen: {1}.</translation>
+  </message>
+  <message>
    <source>Cannot write the picture {0}.</source>
    <translation>Das Bild {0} kann nicht geschrieben werden.</translation>
+  </message>
+  <message>
+   <source>Cannot write {0}: {1}.</source>
+   <translation>{0} lässt sich nicht schreiben: {1}.</translation>
   </message>
   <message>
    <source>Ceiling cut</source>
@@ -480,6 +544,10 @@
    <translation>Die Punkte nach {0} färben.</translation>
   </message>
   <message>
+   <source>Commas in {0} are decimal commas.</source>
+   <translation>Kommas in {0} sind Dezimalkommas.</translation>
+  </message>
+  <message>
    <source>Compact isolated objects up to this size are furniture or columns.</source>
    <translation>Kompakte freistehende Objekte bis zu dieser Größe sind Möbel oder Stützen.</translation>
   </message>
@@ -490,6 +558,14 @@
   <message>
    <source>Coordinates are in {0}, as asked.</source>
    <translation>Die Koordinaten sind {0}, wie verlangt.</translation>
+  </message>
+  <message>
+   <source>Coordinates are in {0}; this is kept for export.</source>
+   <translation>Die Koordinaten sind in {0}; das bleibt für den Export erhalten.</translation>
+  </message>
+  <message>
+   <source>Coordinates are large: ({0}, {1}, {2}) m is subtracted inside and restored in every export.</source>
+   <translation>Die Koordinaten sind groß: ({0}, {1}, {2}) m werden intern abgezogen und in jedem Export wieder zugefügt.</translation>
   </message>
   <message>
    <source>Coordinates are taken as {0} ({1}); force it with input.unit.</source>
@@ -528,6 +604,14 @@
    <translation>Korrektur einer driftenden Trajektorie (SL-LMS), bevor die Punkte zusammengesetzt werden.</translation>
   </message>
   <message>
+   <source>Correction {0} ({1}) is damaged: {2}.</source>
+   <translation>Korrektur {0} ({1}) ist beschädigt: {2}.</translation>
+  </message>
+  <message>
+   <source>Correction {0} is of an unknown kind ({1}).</source>
+   <translation>Korrektur {0} ist von unbekannter Art ({1}).</translation>
+  </message>
+  <message>
    <source>Corridor</source>
    <translation>Flur</translation>
   </message>
@@ -562,6 +646,10 @@
   <message>
    <source>Depth camera, noisy</source>
    <translation>Tiefenkamera, verrauscht</translation>
+  </message>
+  <message>
+   <source>Depth images with poses: TUM, ScanNet-like, 7-Scenes, Open3D and Redwood folders</source>
+   <translation>Tiefenbilder mit Posen: Ordner von TUM, ScanNet und ähnlichen, 7-Scenes, Open3D und Redwood</translation>
   </message>
   <message>
    <source>Deutsch</source>
@@ -666,6 +754,10 @@
   <message>
    <source>E</source>
    <translation>O</translation>
+  </message>
+  <message>
+   <source>E57: several scans with poses, cartesian or spherical</source>
+   <translation>E57: mehrere Scans mit Posen, kartesisch oder sphärisch</translation>
   </message>
   <message>
    <source>Edit</source>
@@ -836,6 +928,10 @@
    <translation>Floorcast ist bei dieser Arbeit gescheitert ({0}: {1}).</translation>
   </message>
   <message>
+   <source>Folder of numbered scans (000000.ply, .pcd, .bin, .npz, ...) with a trajectory</source>
+   <translation>Ordner nummerierter Scans (000000.ply, .pcd, .bin, .npz, ...) mit einer Trajektorie</translation>
+  </message>
+  <message>
    <source>For as-built drawings; a region needs at least a third of its floor seen, and doubtful doors are left out.</source>
    <translation>Für Bestandspläne: Von einer Region muss mindestens ein Drittel gesehen sein, zweifelhafte Türen entfallen.</translation>
   </message>
@@ -904,10 +1000,6 @@
    <translation>Vom Boden bis zum Sturz</translation>
   </message>
   <message>
-   <source>From the next start on.</source>
-   <translation>Ab dem nächsten Start.</translation>
-  </message>
-  <message>
    <source>From what was measured to the plan that explains it.</source>
    <translation>Vom Gemessenen zum Plan, der es erklärt.</translation>
   </message>
@@ -926,6 +1018,10 @@
   <message>
    <source>Furniture size</source>
    <translation>Möbelgröße</translation>
+  </message>
+  <message>
+   <source>GPS time</source>
+   <translation>GPS-Zeit</translation>
   </message>
   <message>
    <source>Give it the name that people use.</source>
@@ -1028,6 +1124,10 @@
    <translation>In Bahnhöfen, Läden und Werken sind Wände fern und Türen breit; Punkte gelten bis 100 m.</translation>
   </message>
   <message>
+   <source>In the wing: {0}</source>
+   <translation>Im Gebäudeflügel: {0}</translation>
+  </message>
+  <message>
    <source>In use</source>
    <translation>In Gebrauch</translation>
   </message>
@@ -1046,6 +1146,10 @@
   <message>
    <source>Intensity</source>
    <translation>Intensität</translation>
+  </message>
+  <message>
+   <source>Interrupted; nothing was written.</source>
+   <translation>Unterbrochen; nichts wurde geschrieben.</translation>
   </message>
   <message>
    <source>Isolated objects longer than this times their width are pieces of wall.</source>
@@ -1104,6 +1208,10 @@
    <translation>Ihr Türblatt liegt hinter der Wandfläche</translation>
   </message>
   <message>
+   <source>Its poses reflect the sensor's axes; the file is taken as right-handed, as asked.</source>
+   <translation>Ihre Posen spiegeln die Achsen des Sensors; die Datei gilt wie verlangt als rechtshändig.</translation>
+  </message>
+  <message>
    <source>Its thickness</source>
    <translation>Ihre Dicke</translation>
   </message>
@@ -1142,6 +1250,18 @@
   <message>
    <source>Kind</source>
    <translation>Art</translation>
+  </message>
+  <message>
+   <source>LAS and LAZ</source>
+   <translation>LAS und LAZ</translation>
+  </message>
+  <message>
+   <source>LAS and LAZ 1.2 to 1.4, with GPS time, classes and CRS</source>
+   <translation>LAS und LAZ 1.2 bis 1.4, mit GPS-Zeit, Klassen und Koordinatensystem</translation>
+  </message>
+  <message>
+   <source>LAS file</source>
+   <translation>LAS-Datei</translation>
   </message>
   <message>
    <source>LOA</source>
@@ -1264,12 +1384,40 @@
    <translation>Genauigkeitsklasse (USIBD), die die Restabweichung erfüllt</translation>
   </message>
   <message>
+   <source>Libraries of the program cannot be unpacked into {0}: {1}; free 400 MB there, or set XDG_CACHE_HOME to a folder with room.</source>
+   <translation>Bibliotheken des Programms lassen sich nicht nach {0} entpacken: {1}; dort 400 MB frei machen oder XDG_CACHE_HOME auf einen Ordner mit Platz setzen.</translation>
+  </message>
+  <message>
    <source>Licence</source>
    <translation>Lizenz</translation>
   </message>
   <message>
    <source>Light</source>
    <translation>Hell</translation>
+  </message>
+  <message>
+   <source>Line {0} of depth.txt is not a time and the name of an image.</source>
+   <translation>Zeile {0} von depth.txt ist nicht eine Zeit und der Name eines Bildes.</translation>
+  </message>
+  <message>
+   <source>Line {0} of the trajectory {1}</source>
+   <translation>Zeile {0} der Trajektorie {1}</translation>
+  </message>
+  <message>
+   <source>Line {0} of the trajectory {1} has {2} columns, those before {3}.</source>
+   <translation>Zeile {0} der Trajektorie {1} hat {2} Spalten, die davor {3}.</translation>
+  </message>
+  <message>
+   <source>Line {0} of the trajectory {1} holds no pose of finite numbers.</source>
+   <translation>Zeile {0} der Trajektorie {1} enthält keine Pose aus endlichen Zahlen.</translation>
+  </message>
+  <message>
+   <source>Line {0} of the trajectory {1} is no rotation with a translation.</source>
+   <translation>Zeile {0} der Trajektorie {1} ist keine Drehung mit einer Verschiebung.</translation>
+  </message>
+  <message>
+   <source>Line {0} of the trajectory {1} is not a row of numbers: {2}.</source>
+   <translation>Zeile {0} der Trajektorie {1} ist keine Zeile von Zahlen: {2}.</translation>
   </message>
   <message>
    <source>Lintel depth</source>
@@ -1408,6 +1556,10 @@
    <translation>Von Hand vereint</translation>
   </message>
   <message>
+   <source>Meshes: PLY with faces, OBJ, STL, GLB and glTF, OFF</source>
+   <translation>Netze: PLY mit Flächen, OBJ, STL, GLB und glTF, OFF</translation>
+  </message>
+  <message>
    <source>Metres</source>
    <translation>Meter</translation>
   </message>
@@ -1532,8 +1684,36 @@
    <translation>Neu</translation>
   </message>
   <message>
+   <source>No depth image from {0} on holds a depth of up to {1} m.</source>
+   <translation>Ab {0} enthält kein Tiefenbild eine Tiefe bis {1} m.</translation>
+  </message>
+  <message>
+   <source>No file fits the pattern {0}.</source>
+   <translation>Keine Datei passt auf das Muster {0}.</translation>
+  </message>
+  <message>
+   <source>No file states the intrinsics: those of a PrimeSense camera are assumed.</source>
+   <translation>Keine Datei nennt die Kameradaten: Die einer PrimeSense-Kamera werden angenommen.</translation>
+  </message>
+  <message>
+   <source>No free space was seen indoors at {0} m above the floor; set occupancy.slice_height to a height that the sensor saw through, or give the trajectory (--trajectory).</source>
+   <translation>In {0} m Höhe über dem Boden wurde im Haus kein freier Raum gesehen; occupancy.slice_height auf eine Höhe setzen, durch die der Sensor sah, oder die Trajektorie angeben (--trajectory).</translation>
+  </message>
+  <message>
+   <source>No input was named.</source>
+   <translation>Keine Eingabe wurde genannt.</translation>
+  </message>
+  <message>
    <source>No plan yet.</source>
    <translation>Noch kein Plan.</translation>
+  </message>
+  <message>
+   <source>No point of {0} refers to its trajectory; drift cannot be corrected.</source>
+   <translation>Kein Punkt von {0} bezieht sich auf seine Trajektorie; die Drift lässt sich nicht korrigieren.</translation>
+  </message>
+  <message>
+   <source>No region came out of {0}: no enclosed free space is larger than {1} m2; check the resolution and the thresholds of the map.</source>
+   <translation>Keine Region kam aus {0} heraus: Kein umschlossener freier Raum ist größer als {1} m2; Auflösung und Schwellen der Karte prüfen.</translation>
   </message>
   <message>
    <source>No region came out: the free space seen is not enclosed by any pair of walls; scan more walls, or raise candidates.max_ratio.</source>
@@ -1542,6 +1722,38 @@
   <message>
    <source>No setting is called that.</source>
    <translation>So heißt keine Einstellung.</translation>
+  </message>
+  <message>
+   <source>No such file or directory</source>
+   <translation>Datei oder Ordner fehlt</translation>
+  </message>
+  <message>
+   <source>No trajectory was found beside {0}: sensor positions are not known.</source>
+   <translation>Neben {0} wurde keine Trajektorie gefunden: Die Lagen des Sensors sind nicht bekannt.</translation>
+  </message>
+  <message>
+   <source>No wall was recognised: every vertical surface ends below furniture height (segments.furniture_height) or is too small; scan higher, or lower that setting.</source>
+   <translation>Keine Wand wurde erkannt: Jede senkrechte Fläche endet unter der Möbelhöhe (segments.furniture_height) oder ist zu klein; höher scannen oder diese Einstellung senken.</translation>
+  </message>
+  <message>
+   <source>No walls were found: only {0} m2 of vertical surface among {1} occupied voxels</source>
+   <translation>Keine Wände wurden gefunden: nur {0} m2 senkrechter Fläche unter {1} belegten Voxeln</translation>
+  </message>
+  <message>
+   <source>No whole scan with a pose came into {0} in time; scans are numbered files (000000.ply, …), and each needs its row of the trajectory.</source>
+   <translation>Kein vollständiger Scan mit einer Pose kam rechtzeitig nach {0}; Scans sind nummerierte Dateien (000000.ply, …), und jeder braucht seine Zeile der Trajektorie.</translation>
+  </message>
+  <message>
+   <source>None of the scans {0} to {1} holds a point.</source>
+   <translation>Keiner der Scans {0} bis {1} enthält einen Punkt.</translation>
+  </message>
+  <message>
+   <source>None of the {0} depth images of {1} has a usable pose.</source>
+   <translation>Keines der {0} Tiefenbilder von {1} hat eine brauchbare Pose.</translation>
+  </message>
+  <message>
+   <source>None of the {0} scans of {1} can be read; the log is damaged.</source>
+   <translation>Keiner der {0} Scans von {1} lässt sich lesen; das Protokoll ist beschädigt.</translation>
   </message>
   <message>
    <source>Not enough memory for this survey.</source>
@@ -1600,6 +1812,10 @@
    <translation>Belegt</translation>
   </message>
   <message>
+   <source>OctoMap .bt and .ot: occupied and free voxels</source>
+   <translation>OctoMap .bt und .ot: belegte und freie Voxel</translation>
+  </message>
+  <message>
    <source>Odometry</source>
    <translation>Odometrie</translation>
   </message>
@@ -1628,6 +1844,10 @@
    <translation>Der gemessenen Länge</translation>
   </message>
   <message>
+   <source>Of the window; an exported drawing has its own.</source>
+   <translation>Des Fensters; eine exportierte Zeichnung hat ihre eigene.</translation>
+  </message>
+  <message>
    <source>Of the window; exported drawings stay light.</source>
    <translation>Des Fensters; exportierte Zeichnungen bleiben hell.</translation>
   </message>
@@ -1642,6 +1862,10 @@
   <message>
    <source>Only what was seen</source>
    <translation>Nur was gesehen wurde</translation>
+  </message>
+  <message>
+   <source>Only {0} of the walls lie along two perpendicular directions; this is hardly a Manhattan world.</source>
+   <translation>Nur {0} der Wände liegen entlang zweier senkrechter Richtungen; das ist kaum eine Manhattan-Welt.</translation>
   </message>
   <message>
    <source>Open a folder of scans</source>
@@ -1720,6 +1944,10 @@
    <translation>Eigene Größe</translation>
   </message>
   <message>
+   <source>PTX text: scans with their poses, directions without an echo left out</source>
+   <translation>PTX-Text: Scans mit ihren Posen, Richtungen ohne Echo weggelassen</translation>
+  </message>
+  <message>
    <source>Package</source>
    <translation>Paket</translation>
   </message>
@@ -1770,6 +1998,10 @@
   <message>
    <source>Perimeter</source>
    <translation>Umfang</translation>
+  </message>
+  <message>
+   <source>Permission denied</source>
+   <translation>Zugriff verweigert</translation>
   </message>
   <message>
    <source>Picture of a pane</source>
@@ -1848,6 +2080,10 @@
    <translation>Die Fahrt abspielen</translation>
   </message>
   <message>
+   <source>Point Cloud Library: ASCII, binary or compressed</source>
+   <translation>Point Cloud Library: Text, binär oder komprimiert</translation>
+  </message>
+  <message>
    <source>Point clouds, meshes, runs of a robot and occupancy maps</source>
    <translation>Punktwolken, Netze, Fahrten eines Roboters und Belegungskarten</translation>
   </message>
@@ -1866,6 +2102,14 @@
   <message>
    <source>Points appear here as they are read</source>
    <translation>Die Punkte erscheinen hier, während sie gelesen werden</translation>
+  </message>
+  <message>
+   <source>Points are in the frame {0}; where they were seen from is not recorded.</source>
+   <translation>Die Punkte sind im System {0}; von wo sie gesehen wurden, ist nicht aufgezeichnet.</translation>
+  </message>
+  <message>
+   <source>Points are joined to the trajectory by time, at most {0} s apart.</source>
+   <translation>Die Punkte werden der Trajektorie über die Zeit zugeordnet, höchstens {0} s auseinander.</translation>
   </message>
   <message>
    <source>Points are not coloured by {0}; choose: {1}.</source>
@@ -1908,6 +2152,18 @@
    <translation>Punkte, die näher am Sensor liegen, entfallen.</translation>
   </message>
   <message>
+   <source>Points refer to the scans {0} to {1}, the trajectory has the rows 0 to {2}; give the trajectory of this survey.</source>
+   <translation>Die Punkte beziehen sich auf die Scans {0} bis {1}, die Trajektorie hat die Zeilen 0 bis {2}; die Trajektorie dieser Aufnahme angeben.</translation>
+  </message>
+  <message>
+   <source>Polygon file format: ASCII or binary, optional scan_id</source>
+   <translation>Polygon-Dateiformat: Text oder binär, scan_id wenn vorhanden</translation>
+  </message>
+  <message>
+   <source>Poses are taken as {0} and {1} depth units as a metre</source>
+   <translation>Die Posen gelten als {0} und {1} Tiefeneinheiten als ein Meter</translation>
+  </message>
+  <message>
    <source>Predicted</source>
    <translation>Vorhergesagt</translation>
   </message>
@@ -1936,6 +2192,22 @@
    <translation>Beenden</translation>
   </message>
   <message>
+   <source>ROS 1 and ROS 2 bags, MCAP: PointCloud2, LaserScan or depth images with TF or odometry</source>
+   <translation>ROS-1- und ROS-2-Bags, MCAP: PointCloud2, LaserScan oder Tiefenbilder mit TF oder Odometrie</translation>
+  </message>
+  <message>
+   <source>ROS bag</source>
+   <translation>ROS-Bag</translation>
+  </message>
+  <message>
+   <source>ROS bags</source>
+   <translation>ROS-Bags</translation>
+  </message>
+  <message>
+   <source>ROS recording</source>
+   <translation>ROS-Aufzeichnung</translation>
+  </message>
+  <message>
    <source>Rays crossed the wall here</source>
    <translation>Strahlen gingen hier durch die Wand</translation>
   </message>
@@ -1958,6 +2230,10 @@
   <message>
    <source>Reading {0}</source>
    <translation>{0} lesen</translation>
+  </message>
+  <message>
+   <source>Reading {0} needs the library {1}, which cannot be loaded; install it with: pip install '{2}'.</source>
+   <translation>Um {0} zu lesen, fehlt die Bibliothek {1} oder lässt sich nicht laden; installieren mit: pip install '{2}'.</translation>
   </message>
   <message>
    <source>Recent</source>
@@ -1986,6 +2262,10 @@
   <message>
    <source>Redo</source>
    <translation>Wiederholen</translation>
+  </message>
+  <message>
+   <source>Region classifier {0} gave region {1} the label {2}, which is not a word; choose another with labels.classifier.</source>
+   <translation>Die Einordnung {0} gab Region {1} die Art {2}, die kein Wort ist; mit labels.classifier eine andere wählen.</translation>
   </message>
   <message>
    <source>Region {name}</source>
@@ -2174,6 +2454,10 @@
   <message>
    <source>Scale bar</source>
    <translation>Maßstab</translation>
+  </message>
+  <message>
+   <source>Scan {0} of {1} has neither cartesian nor spherical coordinates (it has: {2}).</source>
+   <translation>Scan {0} von {1} hat weder kartesische noch sphärische Koordinaten (er hat: {2}).</translation>
   </message>
   <message>
    <source>Screen</source>
@@ -2468,12 +2752,16 @@
    <translation>Löser</translation>
   </message>
   <message>
-   <source>Speak English from the next start on.</source>
-   <translation>Ab dem nächsten Start Englisch sprechen.</translation>
+   <source>Some poses of {0} reflect the axes of the camera and some do not: they are damaged.</source>
+   <translation>Einige Posen von {0} spiegeln die Achsen der Kamera und andere nicht: Sie sind beschädigt.</translation>
   </message>
   <message>
-   <source>Speak German from the next start on.</source>
-   <translation>Ab dem nächsten Start Deutsch sprechen.</translation>
+   <source>Speak English.</source>
+   <translation>Englisch sprechen.</translation>
+  </message>
+  <message>
+   <source>Speak German.</source>
+   <translation>Deutsch sprechen.</translation>
   </message>
   <message>
    <source>Split</source>
@@ -2600,12 +2888,68 @@
    <translation>Gehalten für</translation>
   </message>
   <message>
+   <source>Telling its storeys apart</source>
+   <translation>Geschosse unterscheiden</translation>
+  </message>
+  <message>
+   <source>Text, one point a line: XYZ, PTS, TXT, CSV</source>
+   <translation>Text, ein Punkt je Zeile: XYZ, PTS, TXT, CSV</translation>
+  </message>
+  <message>
+   <source>The OctoMap {0} ends after its header.</source>
+   <translation>Die OctoMap {0} endet nach ihrem Kopf.</translation>
+  </message>
+  <message>
+   <source>The OctoMap {0} has voxels of {1} m, which no building needs.</source>
+   <translation>Die OctoMap {0} hat Voxel von {1} m, wie sie kein Gebäude braucht.</translation>
+  </message>
+  <message>
+   <source>The OctoMap {0} holds more than {1} voxels of {2} m; it is damaged, or needs a coarser resolution.</source>
+   <translation>Die OctoMap {0} enthält mehr als {1} Voxel von {2} m; sie ist beschädigt oder braucht eine gröbere Auflösung.</translation>
+  </message>
+  <message>
+   <source>The OctoMap {0} is damaged: a node near byte {1} lies deeper than the {2} levels of an OctoMap.</source>
+   <translation>Die OctoMap {0} ist beschädigt: Ein Knoten nahe Byte {1} liegt tiefer als die {2} Ebenen einer OctoMap.</translation>
+  </message>
+  <message>
+   <source>The OctoMap {0} is truncated: its tree goes on after {1} bytes.</source>
+   <translation>Die OctoMap {0} ist abgeschnitten: Ihr Baum geht nach {1} Bytes weiter.</translation>
+  </message>
+  <message>
    <source>The best cover by integer programming instead of the greedy one; slower, rarely different.</source>
    <translation>Die beste Überdeckung durch ganzzahlige Optimierung statt der gierigen; langsamer, selten anders.</translation>
   </message>
   <message>
+   <source>The coordinates of {0} are degrees ({1}); project them to metres first.</source>
+   <translation>Die Koordinaten von {0} sind Grad ({1}); zuerst in Meter projizieren.</translation>
+  </message>
+  <message>
+   <source>The corrections are not a list.</source>
+   <translation>Die Korrekturen sind keine Liste.</translation>
+  </message>
+  <message>
    <source>The corrections made since the last save would be lost.</source>
    <translation>Die Korrekturen seit dem letzten Speichern gingen verloren.</translation>
+  </message>
+  <message>
+   <source>The depth image {0} claims {1} x {2} pixels; it is damaged.</source>
+   <translation>Das Tiefenbild {0} gibt {1} x {2} Pixel an; es ist beschädigt.</translation>
+  </message>
+  <message>
+   <source>The depth image {0} has {1} pixels of shape {2}, not depth.</source>
+   <translation>Das Tiefenbild {0} hat {1}-Pixel der Form {2}, keine Tiefe.</translation>
+  </message>
+  <message>
+   <source>The depth image {0} is damaged.</source>
+   <translation>Das Tiefenbild {0} ist beschädigt.</translation>
+  </message>
+  <message>
+   <source>The depth image {0} is no PNG file.</source>
+   <translation>Das Tiefenbild {0} ist keine PNG-Datei.</translation>
+  </message>
+  <message>
+   <source>The description of the glTF scene {0} is too large ({1} bytes).</source>
+   <translation>Die Beschreibung der glTF-Szene {0} ist zu groß ({1} Bytes).</translation>
   </message>
   <message>
    <source>The door accepted at {0} is not there any more.</source>
@@ -2648,6 +2992,22 @@
    <translation>Die wenigsten Ebenen, die alle Wandstücke erklären</translation>
   </message>
   <message>
+   <source>The file is left-handed, as asked: its mirror image is planned, y of the world reversed.</source>
+   <translation>Die Datei ist wie verlangt linkshändig: Ihr Spiegelbild wird geplant, y der Welt umgekehrt.</translation>
+  </message>
+  <message>
+   <source>The file is left-handed, its poses reflect the sensor's axes: its mirror image is planned, y of the world reversed; --set input.mirrored=no takes it as it is.</source>
+   <translation>Die Datei ist linkshändig, ihre Posen spiegeln die Achsen des Sensors: Ihr Spiegelbild wird geplant, y der Welt umgekehrt; mit --set input.mirrored=no gilt sie, wie sie ist.</translation>
+  </message>
+  <message>
+   <source>The file stores them in 32 bits, which resolves only {0} m there.</source>
+   <translation>Die Datei speichert sie mit 32 Bit, was dort nur {0} m auflöst.</translation>
+  </message>
+  <message>
+   <source>The file {0} beside the scene is too large ({1} bytes).</source>
+   <translation>Die Datei {0} neben der Szene ist zu groß ({1} Bytes).</translation>
+  </message>
+  <message>
    <source>The file's axes are left-handed, its plan would be a mirror image; auto: where its poses say so.</source>
    <translation>Die Achsen der Datei sind linkshändig, ihr Plan wäre spiegelverkehrt; auto: wo ihre Posen es sagen.</translation>
   </message>
@@ -2676,8 +3036,80 @@
    <translation>Der Grundriss groß.</translation>
   </message>
   <message>
+   <source>The folder {0} holds no scans (numbered point clouds like 000000.ply) and no point cloud.</source>
+   <translation>Der Ordner {0} enthält keine Scans (nummerierte Punktwolken wie 000000.ply) und keine Punktwolke.</translation>
+  </message>
+  <message>
+   <source>The folder {0} holds {1} depth images but no trajectory ({2}, …); name one with --trajectory.</source>
+   <translation>Der Ordner {0} enthält {1} Tiefenbilder, aber keine Trajektorie ({2}, …); mit --trajectory eine angeben.</translation>
+  </message>
+  <message>
+   <source>The folder {0} holds {1} depth images, the trajectory {2} has {3} poses: one for each image is needed.</source>
+   <translation>Der Ordner {0} enthält {1} Tiefenbilder, die Trajektorie {2} hat {3} Posen: Für jedes Bild wird eine gebraucht.</translation>
+  </message>
+  <message>
+   <source>The folder {0} holds {1} scans (numbers {2} to {3}), the trajectory has {4} rows: one row for each scan is needed.</source>
+   <translation>Der Ordner {0} enthält {1} Scans (Nummern {2} bis {3}), die Trajektorie hat {4} Zeilen: Für jeden Scan wird eine Zeile gebraucht.</translation>
+  </message>
+  <message>
+   <source>The folder {0} holds {1} scans but no trajectory to place them with; add trajectory.tum or name one with --trajectory.</source>
+   <translation>Der Ordner {0} enthält {1} Scans, aber keine Trajektorie, die ihnen ihre Lage gibt; trajectory.tum dazulegen oder mit --trajectory eine angeben.</translation>
+  </message>
+  <message>
+   <source>The folder {0} holds {1} versions of a point cloud ({2}); name one of them.</source>
+   <translation>Der Ordner {0} enthält {1} Fassungen einer Punktwolke ({2}); eine davon angeben.</translation>
+  </message>
+  <message>
+   <source>The folder {0} looks like {1} but holds no depth images.</source>
+   <translation>Der Ordner {0} sieht aus wie {1}, enthält aber keine Tiefenbilder.</translation>
+  </message>
+  <message>
+   <source>The free space of {0} points</source>
+   <translation>Der freie Raum von {0} Punkten</translation>
+  </message>
+  <message>
+   <source>The given trajectory places the scans by their times.</source>
+   <translation>Die angegebene Trajektorie ordnet die Scans nach ihren Zeiten ein.</translation>
+  </message>
+  <message>
+   <source>The header of the OctoMap {0} has no valid 'res' and 'size'.</source>
+   <translation>Der Kopf der OctoMap {0} hat kein gültiges 'res' und 'size'.</translation>
+  </message>
+  <message>
    <source>The height at which most free space was seen</source>
    <translation>Die Höhe, in der am meisten Freiraum gesehen wurde</translation>
+  </message>
+  <message>
+   <source>The height of the laser is not in the log: its plane is taken as z = 0.</source>
+   <translation>Die Höhe des Lasers steht nicht im Protokoll: Seine Ebene gilt als z = 0.</translation>
+  </message>
+  <message>
+   <source>The input {0} does not exist.</source>
+   <translation>Die Eingabe {0} gibt es nicht.</translation>
+  </message>
+  <message>
+   <source>The input {0} is a link to something that does not exist.</source>
+   <translation>Die Eingabe {0} ist ein Verweis auf etwas, das es nicht gibt.</translation>
+  </message>
+  <message>
+   <source>The intrinsics in {0} are in no form that is known.</source>
+   <translation>Die Kameradaten in {0} haben keine bekannte Form.</translation>
+  </message>
+  <message>
+   <source>The intrinsics in {0} are no 3 x 3 or 4 x 4 matrix.</source>
+   <translation>Die Kameradaten in {0} sind keine Matrix von 3 x 3 oder 4 x 4.</translation>
+  </message>
+  <message>
+   <source>The intrinsics in {0} are not four positive numbers (fx, fy, cx, cy).</source>
+   <translation>Die Kameradaten in {0} sind nicht vier positive Zahlen (fx, fy, cx, cy).</translation>
+  </message>
+  <message>
+   <source>The intrinsics on {0} of {1} are none (fx and fy must be positive).</source>
+   <translation>Die Kameradaten auf {0} von {1} sind keine (fx und fy müssen positiv sein).</translation>
+  </message>
+  <message>
+   <source>The last scan of {0} announces {1} points and ends after {2}; those are used.</source>
+   <translation>Der letzte Scan von {0} kündigt {1} Punkte an und endet nach {2}; diese werden genutzt.</translation>
   </message>
   <message>
    <source>The line drawn at {0} does not part region {1} in two of {2} m2.</source>
@@ -2694,6 +3126,10 @@
   <message>
    <source>The machine had said: {said}</source>
    <translation>Das Programm hatte gesagt: {said}</translation>
+  </message>
+  <message>
+   <source>The map's image {0} does not exist beside its YAML file.</source>
+   <translation>Das Bild {0} der Karte fehlt neben ihrer YAML-Datei.</translation>
   </message>
   <message>
    <source>The minimum set of layout planes.</source>
@@ -2720,8 +3156,56 @@
    <translation>Der Plan ist noch nicht fertig: exportieren Sie ihn danach, oder brechen Sie ab, was läuft.</translation>
   </message>
   <message>
+   <source>The plan of {0} x {1} m in voxels of {2} m</source>
+   <translation>Der Plan von {0} x {1} m in Voxeln von {2} m</translation>
+  </message>
+  <message>
+   <source>The plugin {0} ({1}) was switched off: {2}.</source>
+   <translation>Die Erweiterung {0} ({1}) wurde abgeschaltet: {2}.</translation>
+  </message>
+  <message>
+   <source>The plugin {0} failed while {1} ({2}) and was switched off.</source>
+   <translation>Die Erweiterung {0} scheiterte, während {1} ({2}), und wurde abgeschaltet.</translation>
+  </message>
+  <message>
+   <source>The points of {0} carry no scan_id, so nobody knows when they were seen; a PLY with that property or a folder of scans can be replayed.</source>
+   <translation>Die Punkte von {0} tragen keine scan_id, also weiß niemand, wann sie gesehen wurden; eine PLY mit dieser Eigenschaft oder ein Ordner von Scans lässt sich abspielen.</translation>
+  </message>
+  <message>
+   <source>The points of {0} do not refer to a trajectory that could be corrected; leave drift.correct at false.</source>
+   <translation>Die Punkte von {0} beziehen sich auf keine Trajektorie, die sich korrigieren ließe; drift.correct auf false lassen.</translation>
+  </message>
+  <message>
+   <source>The points of {0} refer to scan {1}, the trajectory has only {2} rows; give the trajectory of this survey with --trajectory.</source>
+   <translation>Die Punkte von {0} beziehen sich auf Scan {1}, die Trajektorie hat nur {2} Zeilen; mit --trajectory die Trajektorie dieser Aufnahme angeben.</translation>
+  </message>
+  <message>
+   <source>The points spread over {0} x {1} m, too much for cells of {2} m; check the unit (--set input.unit=...), crop the survey, or enlarge voxels.size.</source>
+   <translation>Die Punkte verteilen sich über {0} x {1} m, zu viel für Zellen von {2} m; die Einheit prüfen (--set input.unit=...), die Aufnahme zuschneiden oder voxels.size vergrößern.</translation>
+  </message>
+  <message>
+   <source>The pose after line {0} of {1} is no rotation with a position.</source>
+   <translation>Die Pose nach Zeile {0} von {1} ist keine Drehung mit einer Lage.</translation>
+  </message>
+  <message>
+   <source>The pose of scan {0} of {1} has a quaternion that is no rotation.</source>
+   <translation>Die Pose von Scan {0} in {1} hat eine Quaternion, die keine Drehung ist.</translation>
+  </message>
+  <message>
+   <source>The pose of scan {0} of {1} holds a value that is not a finite number.</source>
+   <translation>Die Pose von Scan {0} in {1} enthält einen Wert, der keine endliche Zahl ist.</translation>
+  </message>
+  <message>
+   <source>The poses in or for {0} are from another time than its {1} scans on {2} (these begin at {3} s); give the trajectory of this recording.</source>
+   <translation>Die Posen in oder für {0} sind aus einer anderen Zeit als die {1} Scans auf {2} (diese beginnen bei {3} s); die Trajektorie dieser Aufzeichnung angeben.</translation>
+  </message>
+  <message>
    <source>The ratio of widths for a passage.</source>
    <translation>Das Verhältnis der Breiten für einen Durchgang.</translation>
+  </message>
+  <message>
+   <source>The recording was refused: its {0} bytes unpack without end.</source>
+   <translation>Die Aufzeichnung wurde abgelehnt: Ihre {0} Bytes entpacken sich ohne Ende.</translation>
   </message>
   <message>
    <source>The region at {0}, labelled or named by hand, is gone.</source>
@@ -2752,6 +3236,18 @@
    <translation>Dieselbe mit vorhergesagtem Boden als frei und geratenen Wänden als belegt: um vorauszuplanen.</translation>
   </message>
   <message>
+   <source>The scans of {0} that were looked at hold no points.</source>
+   <translation>Die Scans von {0}, die angesehen wurden, enthalten keine Punkte.</translation>
+  </message>
+  <message>
+   <source>The scene needs the file {0} beside it, which is not there.</source>
+   <translation>Die Szene braucht die Datei {0} neben sich, die dort fehlt.</translation>
+  </message>
+  <message>
+   <source>The scene refers to {0} outside its own folder, which is refused.</source>
+   <translation>Die Szene verweist auf {0} außerhalb ihres Ordners; das wird abgelehnt.</translation>
+  </message>
+  <message>
    <source>The script {0} does not exist.</source>
    <translation>Das Skript {0} gibt es nicht.</translation>
   </message>
@@ -2762,6 +3258,10 @@
   <message>
    <source>The sensor went through it</source>
    <translation>Der Sensor ging hindurch</translation>
+  </message>
+  <message>
+   <source>The sensor {0} is taken to sit at {1}: no transform says otherwise.</source>
+   <translation>Der Sensor {0} wird bei {1} angenommen: Keine Transformation sagt etwas anderes.</translation>
   </message>
   <message>
    <source>The share of wall for a passage.</source>
@@ -2776,12 +3276,92 @@
    <translation>Das gezeigte Geschoss; jedes behält seine eigenen Korrekturen und Kontrollmaße.</translation>
   </message>
   <message>
+   <source>The survey is larger than memory, and no temporary file of {0} MB can be made in {1} ({2}); set TMPDIR to a folder on a disk.</source>
+   <translation>Die Aufnahme ist größer als der Speicher, und in {1} lässt sich keine temporäre Datei von {0} MB anlegen ({2}); TMPDIR auf einen Ordner eines Datenträgers setzen.</translation>
+  </message>
+  <message>
+   <source>The survey is larger than memory, and {0} has no room for a temporary file of {1} MB; free space there, set TMPDIR to a folder on a larger disk, or enlarge voxels.size.</source>
+   <translation>Die Aufnahme ist größer als der Speicher, und {0} hat keinen Platz für eine temporäre Datei von {1} MB; dort Platz schaffen, TMPDIR auf einen Ordner eines größeren Datenträgers setzen oder voxels.size vergrößern.</translation>
+  </message>
+  <message>
+   <source>The survey was not read yet.</source>
+   <translation>Die Aufnahme wurde noch nicht gelesen.</translation>
+  </message>
+  <message>
+   <source>The time stamps of {0} go back {1} times, first after row {2}; rows are used in the order of the file.</source>
+   <translation>Die Zeitstempel von {0} springen {1}-mal zurück, zuerst nach Zeile {2}; die Zeilen gelten in der Reihenfolge der Datei.</translation>
+  </message>
+  <message>
    <source>The timeline large.</source>
    <translation>Die Zeitleiste groß.</translation>
   </message>
   <message>
+   <source>The times of {0} ({1} to {2} s) and of the trajectory ({3} to {4} s) do not meet; give the trajectory of this survey.</source>
+   <translation>Die Zeiten von {0} ({1} bis {2} s) und der Trajektorie ({3} bis {4} s) treffen sich nicht; die Trajektorie dieser Aufnahme angeben.</translation>
+  </message>
+  <message>
+   <source>The topic {0} of {1} holds no messages.</source>
+   <translation>Das Topic {0} von {1} enthält keine Nachrichten.</translation>
+  </message>
+  <message>
+   <source>The topic {0} places the scans.</source>
+   <translation>Das Topic {0} gibt den Scans ihre Lage.</translation>
+  </message>
+  <message>
+   <source>The trajectory is in metres, unlike the points.</source>
+   <translation>Die Trajektorie ist in Metern, anders als die Punkte.</translation>
+  </message>
+  <message>
+   <source>The trajectory is not of the survey {0}: half of the points are more than {1} m from the sensor that it gives them (the maximum range is {2} m); give the right one.</source>
+   <translation>Die Trajektorie gehört nicht zur Aufnahme {0}: Die Hälfte der Punkte liegt weiter als {1} m vom Sensor, den sie ihnen gibt (die größte Reichweite ist {2} m); die richtige angeben.</translation>
+  </message>
+  <message>
+   <source>The trajectory is not of the survey {0}: {1} of its positions lie more than {2} m outside the points; give the right one with --trajectory.</source>
+   <translation>Die Trajektorie gehört nicht zur Aufnahme {0}: {1} ihrer Lagen liegen mehr als {2} m außerhalb der Punkte; mit --trajectory die richtige angeben.</translation>
+  </message>
+  <message>
+   <source>The trajectory is not of the survey {0}: {1} of the points lie behind walls, seen from the sensor that it gives them; give the right one with --trajectory.</source>
+   <translation>Die Trajektorie gehört nicht zur Aufnahme {0}: {1} der Punkte liegen hinter Wänden, gesehen vom Sensor, den sie ihnen gibt; mit --trajectory die richtige angeben.</translation>
+  </message>
+  <message>
+   <source>The trajectory is {0}, found beside {1}.</source>
+   <translation>Die Trajektorie ist {0}, neben {1} gefunden.</translation>
+  </message>
+  <message>
+   <source>The trajectory is {0}.</source>
+   <translation>Die Trajektorie ist {0}.</translation>
+  </message>
+  <message>
+   <source>The trajectory was corrected by up to {0} m and {1} degrees: {2} planes explain {3} sightings of walls, floors and ceilings.</source>
+   <translation>Die Trajektorie wurde um bis zu {0} m und {1} Grad korrigiert: {2} Ebenen erklären {3} Sichtungen von Wänden, Böden und Decken.</translation>
+  </message>
+  <message>
+   <source>The trajectory {0} does not exist.</source>
+   <translation>Die Trajektorie {0} gibt es nicht.</translation>
+  </message>
+  <message>
+   <source>The trajectory {0} holds a pose that is no rotation with a position.</source>
+   <translation>Die Trajektorie {0} enthält eine Pose, die keine Drehung mit einer Lage ist.</translation>
+  </message>
+  <message>
+   <source>The trajectory {0} holds no poses.</source>
+   <translation>Die Trajektorie {0} enthält keine Posen.</translation>
+  </message>
+  <message>
+   <source>The trajectory {0} is not in the form of Open3D.</source>
+   <translation>Die Trajektorie {0} hat nicht die Form von Open3D.</translation>
+  </message>
+  <message>
+   <source>The trajectory's clock is {0}, {1} s from that of {2}.</source>
+   <translation>Die Uhr der Trajektorie ist {0}, {1} s neben der von {2}.</translation>
+  </message>
+  <message>
    <source>The two points of a measurement are the same; give two different ones.</source>
    <translation>Die beiden Punkte einer Messung sind gleich; bitte zwei verschiedene angeben.</translation>
+  </message>
+  <message>
+   <source>The viewpoint of {0} is taken as its sensor's origin.</source>
+   <translation>Der Standpunkt (VIEWPOINT) von {0} gilt als Ursprung des Sensors.</translation>
   </message>
   <message>
    <source>The wall added at {0} is too short for one.</source>
@@ -2798,6 +3378,10 @@
   <message>
    <source>The window was closed.</source>
    <translation>Das Fenster wurde geschlossen.</translation>
+  </message>
+  <message>
+   <source>The {0} {1} is {2}, not a file.</source>
+   <translation>Die {0} {1} ist {2}, keine Datei.</translation>
   </message>
   <message>
    <source>Theme</source>
@@ -2820,8 +3404,8 @@
    <translation>Es gibt keinen Bildschirm für ein Fenster; „floorcast gui --script DATEI“ braucht keinen.</translation>
   </message>
   <message>
-   <source>There is no language {0}; there are: {1}.</source>
-   <translation>Es gibt keine Sprache {0}; es gibt: {1}.</translation>
+   <source>There is no exporter {0}; known: {1}.</source>
+   <translation>Es gibt kein Exportformat {0}; bekannt sind: {1}.</translation>
   </message>
   <message>
    <source>There is no layer {0}; the layers are: {1}.</source>
@@ -2846,6 +3430,10 @@
   <message>
    <source>There is no preference {0}; there are: {1}.</source>
    <translation>Es gibt keine Voreinstellung {0}; es gibt: {1}.</translation>
+  </message>
+  <message>
+   <source>There is no region classifier {0} (setting labels.classifier); known: {1}.</source>
+   <translation>Es gibt keine Einordnung {0} der Regionen (Einstellung labels.classifier); bekannt sind: {1}.</translation>
   </message>
   <message>
    <source>There is no setting {0}; 'floorcast settings' lists them.</source>
@@ -2888,6 +3476,10 @@
    <translation>Dieses Format hat für alle Leser Meter und englische Wörter.</translation>
   </message>
   <message>
+   <source>This is no Manhattan world: only {0} of the wall surface is within {1} degrees of two perpendicular directions (frame.min_support is {2}); if the building has walls at other angles, lower it.</source>
+   <translation>Dies ist keine Manhattan-Welt: Nur {0} der Wandfläche liegt innerhalb von {1} Grad um zwei senkrechte Richtungen (frame.min_support ist {2}); hat das Gebäude Wände unter anderen Winkeln, diesen Wert senken.</translation>
+  </message>
+  <message>
    <source>This survey does not say when its points were measured.</source>
    <translation>Diese Aufnahme sagt nicht, wann ihre Punkte gemessen wurden.</translation>
   </message>
@@ -2898,6 +3490,10 @@
   <message>
    <source>This survey holds no intensity: points by height</source>
    <translation>Diese Aufnahme hat keine Intensität: Punkte nach Höhe</translation>
+  </message>
+  <message>
+   <source>This version of Floorcast has no setting {0}; the project goes on without.</source>
+   <translation>Diese Version von Floorcast hat keine Einstellung {0}; das Projekt geht ohne sie weiter.</translation>
   </message>
   <message>
    <source>Time</source>
@@ -2958,6 +3554,10 @@
   <message>
    <source>Trajectory</source>
    <translation>Weg</translation>
+  </message>
+  <message>
+   <source>Transforms place the frame {0} in {1}.</source>
+   <translation>Transformationen geben die Lage des Systems {0} in {1} an.</translation>
   </message>
   <message>
    <source>Tripod scanner, precise</source>
@@ -3036,6 +3636,10 @@
    <translation>Eingeben, wo sie liegt; oder im Plan ziehen, wo sie an Gesehenem einrastet.</translation>
   </message>
   <message>
+   <source>US survey feet</source>
+   <translation>US-Vermessungsfuß</translation>
+  </message>
+  <message>
    <source>Undo</source>
    <translation>Rückgängig</translation>
   </message>
@@ -3054,6 +3658,14 @@
   <message>
    <source>Units</source>
    <translation>Einheiten</translation>
+  </message>
+  <message>
+   <source>Unix time</source>
+   <translation>Unix-Zeit</translation>
+  </message>
+  <message>
+   <source>Unix time, from GPS time</source>
+   <translation>Unix-Zeit, aus der GPS-Zeit</translation>
   </message>
   <message>
    <source>Unseen stretches between two seen parts of one wall are wall up to this length.</source>
@@ -3296,8 +3908,212 @@
    <translation>Zoomt zum Zeiger</translation>
   </message>
   <message>
+   <source>a 7-Zip archive; unpack it first</source>
+   <translation>ein 7-Zip-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a BMP picture, not a point cloud</source>
+   <translation>ein BMP-Bild, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a GIF picture, not a point cloud</source>
+   <translation>ein GIF-Bild, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a JPEG picture, not a point cloud</source>
+   <translation>ein JPEG-Bild, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a JSON document, not a point cloud</source>
+   <translation>ein JSON-Dokument, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a LAS or LAZ file, for which no reader is installed</source>
+   <translation>eine LAS- oder LAZ-Datei, für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>a PDF document, not a point cloud</source>
+   <translation>ein PDF-Dokument, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a PNG picture, not a point cloud</source>
+   <translation>ein PNG-Bild, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a RAR archive; unpack it first</source>
+   <translation>ein RAR-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a ROS bag, for which no reader is installed</source>
+   <translation>ein ROS-Bag, für das kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>a STEP or IFC model, for which no reader is installed</source>
+   <translation>ein STEP- oder IFC-Modell, für das kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>a TIFF picture, not a point cloud</source>
+   <translation>ein TIFF-Bild, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a ZIP archive without arrays of points; unpack it first</source>
+   <translation>ein ZIP-Archiv ohne Felder von Punkten; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a bzip2 archive; unpack it first</source>
+   <translation>ein bzip2-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a check is damaged</source>
+   <translation>ein Kontrollmaß ist beschädigt</translation>
+  </message>
+  <message>
+   <source>a cloud has no x, y and z, but {0}</source>
+   <translation>eine Wolke hat kein x, y und z, sondern {0}</translation>
+  </message>
+  <message>
+   <source>a cloud of {0} x {1} points does not fit its {2} bytes</source>
+   <translation>eine Wolke von {0} x {1} Punkten passt nicht zu ihren {2} Bytes</translation>
+  </message>
+  <message>
+   <source>a compressed chunk ends before its end</source>
+   <translation>ein komprimierter Block endet vor seinem Ende</translation>
+  </message>
+  <message>
+   <source>a depth image of {0} x {1} does not fit its {2} bytes</source>
+   <translation>ein Tiefenbild von {0} x {1} passt nicht zu seinen {2} Bytes</translation>
+  </message>
+  <message>
+   <source>a device</source>
+   <translation>ein Gerät</translation>
+  </message>
+  <message>
+   <source>a folder</source>
+   <translation>ein Ordner</translation>
+  </message>
+  <message>
+   <source>a glTF scene, for which no reader is installed</source>
+   <translation>eine glTF-Szene, für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>a gzip archive; unpack it first</source>
+   <translation>ein gzip-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a part of this path is a file, not a folder</source>
+   <translation>ein Teil dieses Pfads ist eine Datei, kein Ordner</translation>
+  </message>
+  <message>
+   <source>a path is damaged</source>
+   <translation>ein Pfad ist beschädigt</translation>
+  </message>
+  <message>
+   <source>a pickled Python object, which is refused because reading it could run code</source>
+   <translation>ein Python-Objekt (pickle), das abgelehnt wird, weil sein Lesen Programmcode ausführen könnte</translation>
+  </message>
+  <message>
+   <source>a pipe</source>
+   <translation>eine Pipe</translation>
+  </message>
+  <message>
+   <source>a place is two numbers</source>
+   <translation>eine Ortsangabe besteht aus zwei Zahlen</translation>
+  </message>
+  <message>
+   <source>a plugin</source>
+   <translation>eine Erweiterung</translation>
+  </message>
+  <message>
+   <source>a polygon of {0} vertices and area {1} has no turning function</source>
+   <translation>ein Polygon von {0} Ecken und der Fläche {1} hat keine Drehfunktion</translation>
+  </message>
+  <message>
+   <source>a pose is no rotation with a finite position</source>
+   <translation>eine Pose ist keine Drehung mit einer endlichen Lage</translation>
+  </message>
+  <message>
+   <source>a socket</source>
+   <translation>ein Socket</translation>
+  </message>
+  <message>
+   <source>a storey is not a number from 0</source>
+   <translation>ein Geschoss ist keine Zahl ab 0</translation>
+  </message>
+  <message>
+   <source>a text is missing or too long</source>
+   <translation>ein Text fehlt oder ist zu lang</translation>
+  </message>
+  <message>
+   <source>a trajectory, not a point cloud; open the cloud and name this file with --trajectory</source>
+   <translation>eine Trajektorie, keine Punktwolke; die Wolke öffnen und diese Datei mit --trajectory angeben</translation>
+  </message>
+  <message>
+   <source>a triangle refers to corner {0} of {1}</source>
+   <translation>ein Dreieck bezieht sich auf Ecke {0} von {1}</translation>
+  </message>
+  <message>
+   <source>a web page (HTML), not a point cloud: the download probably failed</source>
+   <translation>eine Webseite (HTML), keine Punktwolke: Das Herunterladen ist wohl misslungen</translation>
+  </message>
+  <message>
+   <source>above furniture</source>
+   <translation>höher als Möbel</translation>
+  </message>
+  <message>
+   <source>an E57 file, for which no reader is installed</source>
+   <translation>eine E57-Datei, für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an MCAP recording, for which no reader is installed</source>
+   <translation>eine MCAP-Aufzeichnung, für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an OFF mesh, for which no reader is installed</source>
+   <translation>ein OFF-Netz, für das kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an OctoMap, for which no reader is installed</source>
+   <translation>eine OctoMap, für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an SQLite database (a ROS 2 bag perhaps), for which no reader is installed</source>
+   <translation>eine SQLite-Datenbank (vielleicht ein ROS-2-Bag), für die kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an STL mesh, for which no reader is installed</source>
+   <translation>ein STL-Netz, für das kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an XML document, not a point cloud</source>
+   <translation>ein XML-Dokument, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>an empty ZIP archive</source>
+   <translation>ein leeres ZIP-Archiv</translation>
+  </message>
+  <message>
+   <source>an exporter</source>
+   <translation>ein Exportformat</translation>
+  </message>
+  <message>
+   <source>an xz archive; unpack it first</source>
+   <translation>ein xz-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>and {0} more</source>
+   <translation>und {0} weitere</translation>
+  </message>
+  <message>
    <source>and {n} more</source>
    <translation>und {n} weitere</translation>
+  </message>
+  <message>
+   <source>as asked</source>
+   <translation>wie verlangt</translation>
+  </message>
+  <message>
+   <source>as {0} files have it</source>
+   <translation>wie es {0}-Dateien haben</translation>
   </message>
   <message>
    <source>auto</source>
@@ -3308,6 +4124,30 @@
    <translation>automatisch</translation>
   </message>
   <message>
+   <source>beside a doorway</source>
+   <translation>neben einer Türöffnung</translation>
+  </message>
+  <message>
+   <source>both faces</source>
+   <translation>beide Wandseiten</translation>
+  </message>
+  <message>
+   <source>both wall ends</source>
+   <translation>beide Wandenden</translation>
+  </message>
+  <message>
+   <source>building {0}</source>
+   <translation>Gebäude {0}</translation>
+  </message>
+  <message>
+   <source>by hand</source>
+   <translation>von Hand</translation>
+  </message>
+  <message>
+   <source>called {0}</source>
+   <translation>namens {0}</translation>
+  </message>
+  <message>
    <source>centimetres</source>
    <translation>Zentimeter</translation>
   </message>
@@ -3316,12 +4156,40 @@
    <translation>Messung</translation>
   </message>
   <message>
+   <source>choosing units and language</source>
+   <translation>sie Einheiten und Sprache wählte</translation>
+  </message>
+  <message>
    <source>comes as {value}</source>
    <translation>geliefert: {value}</translation>
   </message>
   <message>
+   <source>correct {0}</source>
+   <translation>{0} korrigieren</translation>
+  </message>
+  <message>
    <source>corridor</source>
    <translation>Flur</translation>
+  </message>
+  <message>
+   <source>corridor opens into a hall</source>
+   <translation>Flur mündet in eine Halle</translation>
+  </message>
+  <message>
+   <source>corridor: long for its width, narrow, many doors, ways lead through it; else room</source>
+   <translation>Flur: lang für seine Breite, schmal, viele Türen, Wege führen hindurch; sonst Raum</translation>
+  </message>
+  <message>
+   <source>depth images</source>
+   <translation>Tiefenbilder</translation>
+  </message>
+  <message>
+   <source>depth.txt of {0} lists no images.</source>
+   <translation>depth.txt von {0} führt keine Bilder auf.</translation>
+  </message>
+  <message>
+   <source>does not exist</source>
+   <translation>gibt es nicht</translation>
   </message>
   <message>
    <source>door</source>
@@ -3334,6 +4202,10 @@
   <message>
    <source>doors {0} and {1}</source>
    <translation>Türen {0} und {1}</translation>
+  </message>
+  <message>
+   <source>each has a file with its pose</source>
+   <translation>zu jedem gehört eine Datei mit seiner Pose</translation>
   </message>
   <message>
    <source>east</source>
@@ -3352,8 +4224,24 @@
    <translation>vom Boden zur Decke sind es dann {0} m</translation>
   </message>
   <message>
+   <source>floorcast project</source>
+   <translation>Floorcast-Projekt</translation>
+  </message>
+  <message>
+   <source>folder of {0} scans</source>
+   <translation>Ordner von {0} Scans</translation>
+  </message>
+  <message>
+   <source>for {0}</source>
+   <translation>für {0}</translation>
+  </message>
+  <message>
    <source>frame {yaw} (support {share})</source>
    <translation>Achsen {yaw} (Stützung {share})</translation>
+  </message>
+  <message>
+   <source>free passage</source>
+   <translation>freier Durchgang</translation>
   </message>
   <message>
    <source>furniture</source>
@@ -3368,8 +4256,116 @@
    <translation>gierig (Artikel) oder exakt (ganzzahliges Programm, HiGHS).</translation>
   </message>
   <message>
+   <source>grid map</source>
+   <translation>Rasterkarte</translation>
+  </message>
+  <message>
+   <source>hardly seen</source>
+   <translation>kaum gesehen</translation>
+  </message>
+  <message>
+   <source>in line with a wall</source>
+   <translation>in der Flucht einer Wand</translation>
+  </message>
+  <message>
+   <source>input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>is a link to something that does not exist</source>
+   <translation>ist ein Verweis auf etwas, das es nicht gibt</translation>
+  </message>
+  <message>
+   <source>it gave {0} where a word is wanted</source>
+   <translation>sie gab {0}, wo ein Wort verlangt ist</translation>
+  </message>
+  <message>
+   <source>it has no {0}</source>
+   <translation>es hat kein {0}</translation>
+  </message>
+  <message>
+   <source>it has none of the hooks</source>
+   <translation>sie hat keine der Schnittstellen</translation>
+  </message>
+  <message>
+   <source>it has one storey, 0</source>
+   <translation>sie hat ein Geschoss, 0</translation>
+  </message>
+  <message>
+   <source>it has other fields than it should</source>
+   <translation>sie hat andere Felder als vorgesehen</translation>
+  </message>
+  <message>
+   <source>it holds no usable points</source>
+   <translation>sie enthält keine brauchbaren Punkte</translation>
+  </message>
+  <message>
+   <source>it holds {0}</source>
+   <translation>es enthält {0}</translation>
+  </message>
+  <message>
+   <source>it is another kind of file</source>
+   <translation>es ist eine andere Art von Datei</translation>
+  </message>
+  <message>
+   <source>it wrote no file</source>
+   <translation>sie schrieb keine Datei</translation>
+  </message>
+  <message>
+   <source>its checks are not a list</source>
+   <translation>seine Kontrollmaße sind keine Liste</translation>
+  </message>
+  <message>
+   <source>its list of places is damaged</source>
+   <translation>ihre Liste von Orten ist beschädigt</translation>
+  </message>
+  <message>
+   <source>its names of regions are damaged</source>
+   <translation>seine Namen von Regionen sind beschädigt</translation>
+  </message>
+  <message>
+   <source>its settings are damaged</source>
+   <translation>seine Einstellungen sind beschädigt</translation>
+  </message>
+  <message>
+   <source>its storeys are 0 to {0}</source>
+   <translation>ihre Geschosse sind 0 bis {0}</translation>
+  </message>
+  <message>
+   <source>its storeys are not a list</source>
+   <translation>seine Geschosse sind keine Liste</translation>
+  </message>
+  <message>
+   <source>its survey is damaged</source>
+   <translation>seine Aufnahme ist beschädigt</translation>
+  </message>
+  <message>
+   <source>its version is {0}, this program reads {1}</source>
+   <translation>seine Version ist {0}, dieses Programm liest {1}</translation>
+  </message>
+  <message>
+   <source>its view is not a table</source>
+   <translation>seine Ansicht ist keine Tabelle</translation>
+  </message>
+  <message>
    <source>label {0}</source>
    <translation>Art {0}</translation>
+  </message>
+  <message>
+   <source>labelling region {0}</source>
+   <translation>sie Region {0} einordnete</translation>
+  </message>
+  <message>
+   <source>long, top not seen</source>
+   <translation>lang, oberes Ende nicht gesehen</translation>
+  </message>
+  <message>
+   <source>looked over</source>
+   <translation>darüber hinweggesehen</translation>
+  </message>
+  <message>
+   <source>looking at {0}</source>
+   <translation>sie {0} ansah</translation>
   </message>
   <message>
    <source>metres</source>
@@ -3388,12 +4384,28 @@
    <translation>Name {0}</translation>
   </message>
   <message>
+   <source>narrow between two spaces</source>
+   <translation>schmale Stelle zwischen zwei Räumen</translation>
+  </message>
+  <message>
    <source>no plan yet</source>
    <translation>noch kein Plan</translation>
   </message>
   <message>
+   <source>no properties</source>
+   <translation>keine Eigenschaften</translation>
+  </message>
+  <message>
+   <source>none</source>
+   <translation>keine</translation>
+  </message>
+  <message>
    <source>north</source>
    <translation>Norden</translation>
+  </message>
+  <message>
+   <source>numpy arrays: points (N, 3), optional scan_id (N,)</source>
+   <translation>numpy-Felder: Punkte (N, 3), scan_id (N,) wenn vorhanden</translation>
   </message>
   <message>
    <source>one grey value for each region, on the raster of the grid map</source>
@@ -3404,8 +4416,16 @@
    <translation>Öffnung</translation>
   </message>
   <message>
+   <source>other face of a wall</source>
+   <translation>andere Seite einer Wand</translation>
+  </message>
+  <message>
    <source>path {length}</source>
    <translation>Weg {length}</translation>
+  </message>
+  <message>
+   <source>permission denied; choose a folder that you may write to</source>
+   <translation>Zugriff verweigert; einen Ordner wählen, in den geschrieben werden darf</translation>
   </message>
   <message>
    <source>predicted</source>
@@ -3414,6 +4434,18 @@
   <message>
    <source>predicted {area}</source>
    <translation>vorhergesagt {area}</translation>
+  </message>
+  <message>
+   <source>reaches ceiling</source>
+   <translation>reicht bis zur Decke</translation>
+  </message>
+  <message>
+   <source>reading ahead</source>
+   <translation>Vorauslesen</translation>
+  </message>
+  <message>
+   <source>reading {0}</source>
+   <translation>sie {0} las</translation>
   </message>
   <message>
    <source>ready in {time}</source>
@@ -3448,6 +4480,18 @@
    <translation>Raum</translation>
   </message>
   <message>
+   <source>room: perimeter under 60 m and turning distance to the square under 1; else corridor</source>
+   <translation>Raum: Umfang unter 60 m und Drehabstand zum Quadrat unter 1; sonst Flur</translation>
+  </message>
+  <message>
+   <source>scan folder</source>
+   <translation>Scanordner</translation>
+  </message>
+  <message>
+   <source>seconds of the GPS week</source>
+   <translation>Sekunden der GPS-Woche</translation>
+  </message>
+  <message>
    <source>seen</source>
    <translation>gesehen</translation>
   </message>
@@ -3456,20 +4500,88 @@
    <translation>gesehen {area}</translation>
   </message>
   <message>
+   <source>something else</source>
+   <translation>etwas anderes</translation>
+  </message>
+  <message>
    <source>south</source>
    <translation>Süden</translation>
+  </message>
+  <message>
+   <source>straight boundary of free space</source>
+   <translation>gerade Grenze des freien Raums</translation>
+  </message>
+  <message>
+   <source>the disk quota is used up; free some space, or choose another folder</source>
+   <translation>das Kontingent auf dem Datenträger ist erschöpft; Platz schaffen oder einen anderen Ordner wählen</translation>
+  </message>
+  <message>
+   <source>the disk reports an error</source>
+   <translation>der Datenträger meldet einen Fehler</translation>
+  </message>
+  <message>
+   <source>the file system is read-only; choose another folder</source>
+   <translation>das Dateisystem ist schreibgeschützt; einen anderen Ordner wählen</translation>
+  </message>
+  <message>
+   <source>the file would be larger than this system allows</source>
+   <translation>die Datei würde größer, als dieses System zulässt</translation>
+  </message>
+  <message>
+   <source>the header of a message is longer than the message</source>
+   <translation>der Kopf einer Nachricht ist länger als die Nachricht</translation>
   </message>
   <message>
    <source>the height is then {0} m</source>
    <translation>die Höhe ist dann {0} m</translation>
   </message>
   <message>
+   <source>the name is too long</source>
+   <translation>der Name ist zu lang</translation>
+  </message>
+  <message>
+   <source>the outline of a region is damaged</source>
+   <translation>der Umriss einer Region ist beschädigt</translation>
+  </message>
+  <message>
    <source>the points are flat, so only their extent could tell</source>
    <translation>die Punkte sind flach, nur ihre Ausdehnung kann es sagen</translation>
   </message>
   <message>
+   <source>the run</source>
+   <translation>die Fahrt</translation>
+  </message>
+  <message>
+   <source>the survey</source>
+   <translation>die Aufnahme</translation>
+  </message>
+  <message>
+   <source>their poses are in {0}</source>
+   <translation>ihre Posen stehen in {0}</translation>
+  </message>
+  <message>
+   <source>there is a file of this name where a folder is wanted</source>
+   <translation>wo ein Ordner hin soll, liegt eine Datei dieses Namens</translation>
+  </message>
+  <message>
+   <source>there is a folder of this name where a file is wanted</source>
+   <translation>wo eine Datei hin soll, liegt ein Ordner dieses Namens</translation>
+  </message>
+  <message>
+   <source>there is no space left on the disk; free some, or choose another folder with --out</source>
+   <translation>auf dem Datenträger ist kein Platz mehr; Platz schaffen oder mit --out einen anderen Ordner wählen</translation>
+  </message>
+  <message>
+   <source>trajectory</source>
+   <translation>Trajektorie</translation>
+  </message>
+  <message>
    <source>type it here</source>
    <translation>hier eingeben</translation>
+  </message>
+  <message>
+   <source>user folder</source>
+   <translation>Benutzerordner</translation>
   </message>
   <message>
    <source>wall</source>
@@ -3478,6 +4590,14 @@
   <message>
    <source>wall at {0}</source>
    <translation>Wand bei {0}</translation>
+  </message>
+  <message>
+   <source>wall at {0} m</source>
+   <translation>Wand bei {0} m</translation>
+  </message>
+  <message>
+   <source>wall on both sides</source>
+   <translation>Wand auf beiden Seiten</translation>
   </message>
   <message>
    <source>wall {0}</source>
@@ -3492,8 +4612,16 @@
    <translation>Westen</translation>
   </message>
   <message>
+   <source>wing {0}</source>
+   <translation>Gebäudeflügel {0}</translation>
+  </message>
+  <message>
    <source>worse than every LOA band</source>
    <translation>schlechter als jede LOA-Klasse</translation>
+  </message>
+  <message>
+   <source>writing {0}</source>
+   <translation>sie {0} schrieb</translation>
   </message>
   <message>
    <source>x from</source>
@@ -3516,8 +4644,96 @@
    <translation>{0} ({1}) ist jetzt nicht möglich.</translation>
   </message>
   <message>
+   <source>{0} It was left out.</source>
+   <translation>{0} Sie wurde weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} The poses of its scans are not taken for the sensor's.</source>
+   <translation>{0} Die Posen ihrer Scans gelten nicht als die des Sensors.</translation>
+  </message>
+  <message>
+   <source>{0} and {1} are in different coordinate reference systems; bring them into one first.</source>
+   <translation>{0} und {1} haben verschiedene Koordinatensysteme; zuerst in eines bringen.</translation>
+  </message>
+  <message>
+   <source>{0} and {1} lie {2} km apart and are not of one survey; plan them one by one.</source>
+   <translation>{0} und {1} liegen {2} km auseinander und gehören nicht zu einer Aufnahme; einzeln planen.</translation>
+  </message>
+  <message>
+   <source>{0} and {1} more</source>
+   <translation>{0} und {1} weitere</translation>
+  </message>
+  <message>
+   <source>{0} announces {1} points; what its lines hold is what counts.</source>
+   <translation>{0} kündigt {1} Punkte an; es zählt, was die Zeilen enthalten.</translation>
+  </message>
+  <message>
+   <source>{0} became longer while it was read; wait until it is whole.</source>
+   <translation>{0} wurde während des Lesens länger; warten, bis die Datei vollständig ist.</translation>
+  </message>
+  <message>
+   <source>{0} became shorter while it was read; copy it whole and try again.</source>
+   <translation>{0} wurde während des Lesens kürzer; vollständig kopieren und noch einmal versuchen.</translation>
+  </message>
+  <message>
    <source>{0} buildings stand apart from each other: each is planned by itself, in one frame.</source>
    <translation>{0} Gebäude stehen auseinander: Jedes wird für sich geplant, in einem Achsenkreuz.</translation>
+  </message>
+  <message>
+   <source>{0} cannot be imported</source>
+   <translation>{0} lässt sich nicht laden</translation>
+  </message>
+  <message>
+   <source>{0} cannot be read as a picture: {1}.</source>
+   <translation>{0} lässt sich nicht als Bild lesen: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PCD but its header does not end (no DATA line).</source>
+   <translation>{0} gibt sich als PCD aus, aber der Kopf endet nicht (keine Zeile DATA).</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PCD but its header has no {1} line.</source>
+   <translation>{0} gibt sich als PCD aus, aber im Kopf fehlt die Zeile {1}.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PCD but {1} in its header is not valid.</source>
+   <translation>{0} gibt sich als PCD aus, aber {1} im Kopf ist nicht gültig.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PLY but its element {1} has no properties.</source>
+   <translation>{0} gibt sich als PLY aus, aber das Element {1} hat keine Eigenschaften.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PLY but its header does not end ('end_header' is missing).</source>
+   <translation>{0} gibt sich als PLY aus, aber der Kopf endet nicht ('end_header' fehlt).</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PLY but its header has no 'format' line.</source>
+   <translation>{0} gibt sich als PLY aus, aber im Kopf fehlt die Zeile 'format'.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be PLY but line {1} of its header is not valid: {2}.</source>
+   <translation>{0} gibt sich als PLY aus, aber Zeile {1} des Kopfes ist nicht gültig: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be an OctoMap but its header does not end with 'data'.</source>
+   <translation>{0} gibt sich als OctoMap aus, aber der Kopf endet nicht mit 'data'.</translation>
+  </message>
+  <message>
+   <source>{0} claims to be {1} but its content is not; it may be damaged or misnamed.</source>
+   <translation>{0} gibt sich als {1} aus, ist es aber nach dem Inhalt nicht; die Datei ist vielleicht beschädigt oder falsch benannt.</translation>
+  </message>
+  <message>
+   <source>{0} claims {1} bytes</source>
+   <translation>{0} soll {1} Bytes haben</translation>
+  </message>
+  <message>
+   <source>{0} defines XML entities of its own, which is refused: E57 has none.</source>
+   <translation>{0} definiert eigene XML-Entitäten; das wird abgelehnt, denn E57 hat keine.</translation>
+  </message>
+  <message>
+   <source>{0} depth images of {1} have no pose; they were left out.</source>
+   <translation>{0} Tiefenbilder von {1} haben keine Pose; sie wurden weggelassen.</translation>
   </message>
   <message>
    <source>{0} doors</source>
@@ -3528,12 +4744,324 @@
    <translation>{0} ist gescheitert: {1}: {2}.</translation>
   </message>
   <message>
+   <source>{0} files are read as one survey: {1}.</source>
+   <translation>{0} Dateien werden als eine Aufnahme gelesen: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} folder</source>
+   <translation>{0}-Ordner</translation>
+  </message>
+  <message>
+   <source>{0} has LAS point format {1}; known are 0 to 10.</source>
+   <translation>{0} hat das LAS-Punktformat {1}; bekannt sind 0 bis 10.</translation>
+  </message>
+  <message>
+   <source>{0} has a quaternion of length zero, which is no rotation.</source>
+   <translation>{0} hat eine Quaternion der Länge null, die keine Drehung ist.</translation>
+  </message>
+  <message>
+   <source>{0} has lists of differing lengths in its element {1}; write its points without list properties.</source>
+   <translation>{0} hat im Element {1} Listen verschiedener Länge; die Punkte ohne Listen schreiben.</translation>
+  </message>
+  <message>
+   <source>{0} has no coordinates: its fields are {1}, not x, y, z.</source>
+   <translation>{0} hat keine Koordinaten: Die Felder sind {1}, nicht x, y, z.</translation>
+  </message>
+  <message>
+   <source>{0} has no coordinates: its points have {1}, not x, y, z.</source>
+   <translation>{0} hat keine Koordinaten: Die Punkte haben {1}, nicht x, y, z.</translation>
+  </message>
+  <message>
+   <source>{0} has no trajectory that could be corrected; leave drift.correct at false.</source>
+   <translation>{0} hat keine Trajektorie, die sich korrigieren ließe; drift.correct auf false lassen.</translation>
+  </message>
+  <message>
+   <source>{0} has no trajectory, so nobody knows when its points were seen; give one with --trajectory, or use 'floorcast plan'.</source>
+   <translation>{0} hat keine Trajektorie, also weiß niemand, wann die Punkte gesehen wurden; mit --trajectory eine angeben oder 'floorcast plan' nutzen.</translation>
+  </message>
+  <message>
+   <source>{0} has {1} columns instead of the 8 of TUM form (timestamp tx ty tz qx qy qz qw).</source>
+   <translation>{0} hat {1} Spalten statt der 8 der TUM-Form (timestamp tx ty tz qx qy qz qw).</translation>
+  </message>
+  <message>
+   <source>{0} has {1} points but {2} has the shape {3}.</source>
+   <translation>{0} hat {1} Punkte, aber {2} hat die Form {3}.</translation>
+  </message>
+  <message>
+   <source>{0} has {1} x {2} pixels, too many for a map.</source>
+   <translation>{0} hat {1} x {2} Pixel, zu viele für eine Karte.</translation>
+  </message>
+  <message>
+   <source>{0} holds 0 points.</source>
+   <translation>{0} enthält 0 Punkte.</translation>
+  </message>
+  <message>
+   <source>{0} holds a value that is not a finite number.</source>
+   <translation>{0} enthält einen Wert, der keine endliche Zahl ist.</translation>
+  </message>
+  <message>
+   <source>{0} holds less than {1} m2 of free cells ({2} cells of {3} m); check the resolution, and negate and free_thresh of the map's YAML.</source>
+   <translation>{0} enthält weniger als {1} m2 freie Zellen ({2} Zellen von {3} m); die Auflösung prüfen, ebenso negate und free_thresh in der YAML der Karte.</translation>
+  </message>
+  <message>
+   <source>{0} holds no PointCloud2, LaserScan or depth image messages on the topic {1} (input.topic); its topics: {2}.</source>
+   <translation>{0} enthält keine Nachrichten PointCloud2, LaserScan oder Tiefenbild auf dem Topic {1} (input.topic); Topics: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} holds no PointCloud2, LaserScan or depth image messages; its topics: {1}.</source>
+   <translation>{0} enthält keine Nachrichten PointCloud2, LaserScan oder Tiefenbild; Topics: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} holds no array of points of shape (N, 3); its arrays: {1}.</source>
+   <translation>{0} enthält kein Feld von Punkten der Form (N, 3); die Felder: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} holds no lines of three numbers or more.</source>
+   <translation>{0} enthält keine Zeilen von drei oder mehr Zahlen.</translation>
+  </message>
+  <message>
+   <source>{0} holds no point with finite coordinates of a plausible size.</source>
+   <translation>{0} enthält keinen Punkt mit endlichen Koordinaten von glaubhafter Größe.</translation>
+  </message>
+  <message>
+   <source>{0} holds no poses for the {1} scans in the frame {2} (no moving transform, no odometry); name a trajectory with --trajectory; its topics: {3}.</source>
+   <translation>{0} enthält keine Posen zu den {1} Scans im System {2} (keine bewegte Transformation, keine Odometrie); mit --trajectory eine Trajektorie angeben; Topics: {3}.</translation>
+  </message>
+  <message>
+   <source>{0} holds pickled objects ({1}), which are refused because reading them could run code; save plain arrays of numbers.</source>
+   <translation>{0} enthält Python-Objekte (pickle: {1}), die abgelehnt werden, weil ihr Lesen Programmcode ausführen könnte; einfache Zahlenfelder speichern.</translation>
+  </message>
+  <message>
+   <source>{0} holds the depth images {1} but no camera_info beside them, so their geometry is not known; camera_info topics: {2}.</source>
+   <translation>{0} enthält die Tiefenbilder {1}, aber keine camera_info dazu, also ist ihre Geometrie nicht bekannt; Topics mit camera_info: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1} depth images ({2}); {3}.</source>
+   <translation>{0} enthält {1} Tiefenbilder ({2}); {3}.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1} occupied and {2} free voxels of {3} m; its free space is used as it is.</source>
+   <translation>{0} enthält {1} belegte und {2} freie Voxel von {3} m; der freie Raum wird genommen, wie er ist.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1} planar scans ({2}) with their poses.</source>
+   <translation>{0} enthält {1} ebene Scans ({2}) mit ihren Posen.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1} scans, each in the frame of its sensor.</source>
+   <translation>{0} enthält {1} Scans, jeden im System seines Sensors.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1} without scanner positions: where each point was seen from is not known.</source>
+   <translation>{0} enthält {1} ohne Lage des Scanners: Von wo jeder Punkt gesehen wurde, ist nicht bekannt.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1}, each with the position of its scanner.</source>
+   <translation>{0} enthält {1}, jeden mit der Lage seines Scanners.</translation>
+  </message>
+  <message>
+   <source>{0} holds {1}; each was seen from the origin of its own frame.</source>
+   <translation>{0} enthält {1}; jeder wurde vom Ursprung seines eigenen Systems aus gesehen.</translation>
+  </message>
+  <message>
+   <source>{0} images that moved are read.</source>
+   <translation>{0} Bilder mit Bewegung werden gelesen.</translation>
+  </message>
+  <message>
+   <source>{0} images that moved are used.</source>
+   <translation>{0} Bilder mit Bewegung werden genutzt.</translation>
+  </message>
+  <message>
+   <source>{0} is E57 version {1}.{2}; readable is version 1.</source>
+   <translation>{0} hat die E57-Version {1}.{2}; lesbar ist Version 1.</translation>
+  </message>
+  <message>
+   <source>{0} is LAS version {1}.{2}; readable are 1.2, 1.3 and 1.4.</source>
+   <translation>{0} hat die LAS-Version {1}.{2}; lesbar sind 1.2, 1.3 und 1.4.</translation>
+  </message>
+  <message>
+   <source>{0} is a CARMEN log without scans that have poses (FLASER or ROBOTLASER1 messages).</source>
+   <translation>{0} ist ein CARMEN-Protokoll ohne Scans mit Posen (Nachrichten FLASER oder ROBOTLASER1).</translation>
+  </message>
+  <message>
+   <source>{0} is a LAS file of 0 points.</source>
+   <translation>{0} ist eine LAS-Datei von 0 Punkten.</translation>
+  </message>
+  <message>
+   <source>{0} is a PCD file of 0 points.</source>
+   <translation>{0} ist eine PCD-Datei von 0 Punkten.</translation>
+  </message>
+  <message>
+   <source>{0} is a PLY file of 0 points.</source>
+   <translation>{0} ist eine PLY-Datei von 0 Punkten.</translation>
+  </message>
+  <message>
+   <source>{0} is a PLY file without vertices (its elements: {1}).</source>
+   <translation>{0} ist eine PLY-Datei ohne Punkte (ihre Elemente: {1}).</translation>
+  </message>
+  <message>
+   <source>{0} is a PTX file without points.</source>
+   <translation>{0} ist eine PTX-Datei ohne Punkte.</translation>
+  </message>
+  <message>
+   <source>{0} is a bare image: {1} and more is free, 205 is unknown, all else is wall.</source>
+   <translation>{0} ist ein bloßes Bild: {1} und mehr ist frei, 205 ist unbekannt, alles andere ist Wand.</translation>
+  </message>
+  <message>
+   <source>{0} is a damaged map YAML: origin and thresholds must be finite numbers.</source>
+   <translation>{0} ist eine beschädigte Karten-YAML: Ursprung und Schwellen müssen endliche Zahlen sein.</translation>
+  </message>
+  <message>
+   <source>{0} is a damaged map YAML: {1}.</source>
+   <translation>{0} ist eine beschädigte Karten-YAML: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} is a damaged project: {1}</source>
+   <translation>{0} ist ein beschädigtes Projekt: {1}</translation>
+  </message>
+  <message>
+   <source>{0} is a file; --follow is for a folder of scans that grows.</source>
+   <translation>{0} ist eine Datei; --follow ist für einen Ordner von Scans, der wächst.</translation>
+  </message>
+  <message>
+   <source>{0} is a glTF scene without meshes.</source>
+   <translation>{0} ist eine glTF-Szene ohne Netze.</translation>
+  </message>
+  <message>
+   <source>{0} is a mesh of {1} GB in a form that is loaded whole, which takes up to {2} GB of memory, and {3} GB are free; save it as binary STL or as binary PLY of triangles, which are read by pieces.</source>
+   <translation>{0} ist ein Netz von {1} GB in einer Form, die im Ganzen geladen wird und bis zu {2} GB Speicher braucht, und {3} GB sind frei; als binäre STL oder binäre PLY aus Dreiecken speichern, die stückweise gelesen werden.</translation>
+  </message>
+  <message>
+   <source>{0} is a mesh of {1} triangles and {2} m2; points on it are {3} m apart.</source>
+   <translation>{0} ist ein Netz von {1} Dreiecken und {2} m2; die Punkte darauf liegen {3} m auseinander.</translation>
+  </message>
+  <message>
+   <source>{0} is a mesh without any surface.</source>
+   <translation>{0} ist ein Netz ohne jede Fläche.</translation>
+  </message>
+  <message>
+   <source>{0} is a picture and has no scale; say how many metres a pixel is, like --resolution 0.05, or give the map's YAML file.</source>
+   <translation>{0} ist ein Bild und hat keinen Maßstab; sagen, wie viele Meter ein Pixel ist, etwa --resolution 0.05, oder die YAML-Datei der Karte angeben.</translation>
+  </message>
+  <message>
    <source>{0} is a whole number, {1}; given {2}.</source>
    <translation>{0} ist eine ganze Zahl, {1}; gegeben ist {2}.</translation>
   </message>
   <message>
+   <source>{0} is an E57 file without points.</source>
+   <translation>{0} ist eine E57-Datei ohne Punkte.</translation>
+  </message>
+  <message>
+   <source>{0} is an OctoMap of the kind {1}; readable are {2}.</source>
+   <translation>{0} ist eine OctoMap der Art {1}; lesbar sind {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is an OctoMap without occupied voxels.</source>
+   <translation>{0} ist eine OctoMap ohne belegte Voxel.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged ({1}: {2}).</source>
+   <translation>{0} ist beschädigt ({1}: {2}).</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: a node of its glTF scene has two parents.</source>
+   <translation>{0} ist beschädigt: Ein Knoten der glTF-Szene hat zwei Eltern.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: a triangle refers to corner {1} of {2}.</source>
+   <translation>{0} ist beschädigt: Ein Dreieck bezieht sich auf Ecke {1} von {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: it has a packet of points that cannot be one.</source>
+   <translation>{0} ist beschädigt: Ein Paket von Punkten kann keines sein.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: it is compressed and does not say how.</source>
+   <translation>{0} ist beschädigt: Sie ist komprimiert und sagt nicht wie.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its E57 header points outside the file.</source>
+   <translation>{0} ist beschädigt: Ihr E57-Kopf verweist auf Stellen außerhalb der Datei.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its LAZ chunk table announces {1} chunks.</source>
+   <translation>{0} ist beschädigt: Die LAZ-Blocktabelle kündigt {1} Blöcke an.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its LAZ chunks hold {1} points each.</source>
+   <translation>{0} ist beschädigt: Ihre LAZ-Blöcke enthalten je {1} Punkte.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its compressed points cannot be unpacked.</source>
+   <translation>{0} ist beschädigt: Die komprimierten Punkte lassen sich nicht entpacken.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its compressed points take {1} bytes each, its header says {2}.</source>
+   <translation>{0} ist beschädigt: Die komprimierten Punkte haben je {1} Bytes, der Kopf sagt {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its glTF scene has {1} values without data.</source>
+   <translation>{0} ist beschädigt: Die glTF-Szene hat {1} Werte ohne Daten.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its glTF scene is not as the format says.</source>
+   <translation>{0} ist beschädigt: Die glTF-Szene ist nicht, wie das Format sagt.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: its {1} points of {2} bytes do not agree with {3} bytes unpacked from {4}.</source>
+   <translation>{0} ist beschädigt: {1} Punkte von {2} Bytes passen nicht zu {3} Bytes, entpackt aus {4}.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: no points where its description puts them.</source>
+   <translation>{0} ist beschädigt: Wo die Beschreibung Punkte angibt, sind keine.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: page {1} has a wrong checksum.</source>
+   <translation>{0} ist beschädigt: Seite {1} hat eine falsche Prüfsumme.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: the description of its glTF scene is no JSON.</source>
+   <translation>{0} ist beschädigt: Die Beschreibung der glTF-Szene ist kein JSON.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: the description of its glTF scene is no object.</source>
+   <translation>{0} ist beschädigt: Die Beschreibung der glTF-Szene ist kein Objekt.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: the lines from byte {1} are no header of scan {2}.</source>
+   <translation>{0} ist beschädigt: Die Zeilen ab Byte {1} sind kein Kopf von Scan {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: the sizes in its LAZ chunk table exceed the file.</source>
+   <translation>{0} ist beschädigt: Die Größen in der LAZ-Blocktabelle übersteigen die Datei.</translation>
+  </message>
+  <message>
+   <source>{0} is damaged: {1} cannot be unpacked.</source>
+   <translation>{0} ist beschädigt: {1} lässt sich nicht entpacken.</translation>
+  </message>
+  <message>
+   <source>{0} is empty.</source>
+   <translation>{0} ist leer.</translation>
+  </message>
+  <message>
+   <source>{0} is named like a {1} file but holds {2}; it was read as that.</source>
+   <translation>{0} heißt wie eine {1}-Datei, enthält aber {2}; so wurde sie gelesen.</translation>
+  </message>
+  <message>
    <source>{0} is no length; type one like 3.2, 320 cm or 10' 6".</source>
    <translation>{0} ist keine Länge; möglich ist etwa 3,2 oder 320 cm oder 10' 6".</translation>
+  </message>
+  <message>
+   <source>{0} is no map YAML: it does not say {1}.</source>
+   <translation>{0} ist keine Karten-YAML: {1} fehlt darin.</translation>
+  </message>
+  <message>
+   <source>{0} is no {1} that can be read, or is damaged ({2}).</source>
+   <translation>{0} ist keine lesbare Datei der Art {1} oder ist beschädigt ({2}).</translation>
+  </message>
+  <message>
+   <source>{0} is not a KITTI scan: its {1} bytes are no whole number of points of 16 bytes.</source>
+   <translation>{0} ist kein KITTI-Scan: {1} Bytes sind keine ganze Zahl von Punkten zu 16 Bytes.</translation>
   </message>
   <message>
    <source>{0} is not a list of actions ({1}).</source>
@@ -3544,28 +5072,224 @@
    <translation>{0} ist keine Liste von Befehlen wie {"action": "file.open", "path": …}.</translation>
   </message>
   <message>
+   <source>{0} is not a number</source>
+   <translation>{0} ist keine Zahl</translation>
+  </message>
+  <message>
    <source>{0} is not a number of metres, like 3.412.</source>
    <translation>{0} ist keine Zahl von Metern wie 3.412.</translation>
+  </message>
+  <message>
+   <source>{0} is not a point cloud that Floorcast knows; readable are: {1}.</source>
+   <translation>{0} ist keine Punktwolke, die Floorcast kennt; lesbar sind: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} is not a row of numbers: {1}.</source>
+   <translation>{0} ist keine Zeile von Zahlen: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} is not a trajectory: it is not text.</source>
+   <translation>{0} ist keine Trajektorie: Es ist kein Text.</translation>
+  </message>
+  <message>
+   <source>{0} is not a valid numpy file: its header is damaged.</source>
+   <translation>{0} ist keine gültige numpy-Datei: Ihr Kopf ist beschädigt.</translation>
+  </message>
+  <message>
+   <source>{0} is not an undamaged Floorcast project ({1}).</source>
+   <translation>{0} ist kein unbeschädigtes Floorcast-Projekt ({1}).</translation>
+  </message>
+  <message>
+   <source>{0} is not text.</source>
+   <translation>{0} ist kein Text.</translation>
+  </message>
+  <message>
+   <source>{0} is not the same as when this project was saved; check the corrections.</source>
+   <translation>{0} ist nicht dieselbe wie beim Speichern dieses Projekts; die Korrekturen prüfen.</translation>
   </message>
   <message>
    <source>{0} is not where it was; say where it lies now.</source>
    <translation>{0} ist nicht mehr, wo es war; bitte sagen, wo es jetzt liegt.</translation>
   </message>
   <message>
+   <source>{0} is not {1}: it lacks a name, a description or a method</source>
+   <translation>{0} ist nicht {1}: Name, Beschreibung oder eine Methode fehlt</translation>
+  </message>
+  <message>
    <source>{0} is one of {1}, not {2}.</source>
    <translation>{0} ist eins von {1}, nicht {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is read like the other {1} files: in {2}, {3} up.</source>
+   <translation>{0} wird gelesen wie die anderen Dateien ({1}): in {2}, {3} nach oben.</translation>
+  </message>
+  <message>
+   <source>{0} is too large for a text of poses ({1} bytes).</source>
+   <translation>{0} ist zu groß für einen Text von Posen ({1} Bytes).</translation>
+  </message>
+  <message>
+   <source>{0} is too large for a trajectory ({1} bytes).</source>
+   <translation>{0} ist zu groß für eine Trajektorie ({1} Bytes).</translation>
+  </message>
+  <message>
+   <source>{0} is truncated inside its E57 header ({1} bytes).</source>
+   <translation>{0} ist im E57-Kopf abgeschnitten ({1} Bytes).</translation>
+  </message>
+  <message>
+   <source>{0} is truncated inside its LAS header ({1} bytes).</source>
+   <translation>{0} ist im LAS-Kopf abgeschnitten ({1} Bytes).</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: its LAZ chunk table is missing.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: Die LAZ-Blocktabelle fehlt.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: its glTF header says {1} bytes.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: Der glTF-Kopf sagt {1} Bytes.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: its header puts the first point at byte {1} after {2} records, the file has {3} bytes.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: Nach dem Kopf beginnt der erste Punkt bei Byte {1} nach {2} Einträgen, die Datei hat {3} Bytes.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: its header says {1} bytes, it has {2}.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: Der Kopf sagt {1} Bytes, es sind {2}.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: the lists of its element {1} do not fit into its {2} bytes.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: Die Listen des Elements {1} passen nicht in seine {2} Bytes.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated or damaged: {1}.</source>
+   <translation>{0} ist abgeschnitten oder beschädigt: {1}.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its array {1} should have the shape {2}, the file holds less; copy it again.</source>
+   <translation>{0} ist abgeschnitten: Das Feld {1} sollte die Form {2} haben, die Datei enthält weniger; noch einmal kopieren.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises at least {1} bytes of elements, {2} follow it.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht mindestens {1} Bytes an Elementen, {2} folgen ihm.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises {1} points, its {2} chunks hold fewer.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht {1} Punkte, die {2} Blöcke enthalten weniger.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises {1} points, the file has lines for {2} of them; copy it again.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht {1} Punkte, die Datei hat Zeilen für {2} davon; noch einmal kopieren.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises {1} points, the file holds {2} of them; copy it again.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht {1} Punkte, die Datei enthält {2} davon; noch einmal kopieren.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises {1} points, {2} of them exist.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht {1} Punkte, {2} davon sind da.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: its header promises {1} triangles, {2} of them exist.</source>
+   <translation>{0} ist abgeschnitten: Der Kopf verspricht {1} Dreiecke, {2} davon sind da.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: scan {1} promises {2} points, {3} of them exist.</source>
+   <translation>{0} ist abgeschnitten: Scan {1} verspricht {2} Punkte, {3} davon sind da.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: {1} bytes of compressed points are promised, {2} are there; copy it again.</source>
+   <translation>{0} ist abgeschnitten: {1} Bytes komprimierter Punkte sind versprochen, {2} sind da; noch einmal kopieren.</translation>
+  </message>
+  <message>
+   <source>{0} is truncated: {1} of the {2} points of a scan do not exist.</source>
+   <translation>{0} ist abgeschnitten: {1} der {2} Punkte eines Scans fehlen.</translation>
+  </message>
+  <message>
+   <source>{0} is {1}; readable are: {2}.</source>
+   <translation>{0} ist {1}; lesbar sind: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} lines of {1} are damaged scans; they were left out.</source>
+   <translation>{0} Zeilen von {1} sind beschädigte Scans; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} lines of {1} hold no point; they were left out.</source>
+   <translation>{0} Zeilen von {1} enthalten keinen Punkt; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} m is out of bounds</source>
+   <translation>{0} m liegt außerhalb der Grenzen</translation>
   </message>
   <message>
    <source>{0} m2 of free space are in no region: no rectangle of walls encloses them.</source>
    <translation>{0} m² freier Raum liegen in keiner Region: Kein Rechteck von Wänden schließt sie ein.</translation>
   </message>
   <message>
+   <source>{0} mesh</source>
+   <translation>{0}-Netz</translation>
+  </message>
+  <message>
    <source>{0} needs a window.</source>
    <translation>{0} braucht ein Fenster.</translation>
   </message>
   <message>
+   <source>{0} of the {1} points of {2} are classified as noise or withheld; they were left out.</source>
+   <translation>{0} der {1} Punkte von {2} sind als Rauschen oder zurückgehalten eingestuft; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} of the {1} points of {2} are more than {3} s from any row of the trajectory; they were left out.</source>
+   <translation>{0} der {1} Punkte von {2} sind mehr als {3} s von jeder Zeile der Trajektorie entfernt; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} of the {1} points of {2} are not finite or absurdly far away; they were left out.</source>
+   <translation>{0} der {1} Punkte von {2} sind nicht endlich oder unsinnig weit weg; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} of the {1} scans of {2} have no pose; they were left out.</source>
+   <translation>{0} der {1} Scans von {2} haben keine Pose; sie wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} of them have no sensor positions: there free space is told by the others only.</source>
+   <translation>{0} davon haben keine Sensorlagen: Dort zeigen nur die anderen den freien Raum.</translation>
+  </message>
+  <message>
+   <source>{0} of {1} regions have walls at other angles; their outline is the map's own, not made of layout planes.</source>
+   <translation>{0} von {1} Regionen haben Wände unter anderen Winkeln; ihr Umriss ist der der Karte, nicht aus Wandebenen gebildet.</translation>
+  </message>
+  <message>
+   <source>{0} passages in walls at other angles part regions but are not drawn as doors.</source>
+   <translation>{0} Durchgänge in Wänden unter anderen Winkeln trennen Regionen, sind aber nicht als Türen gezeichnet.</translation>
+  </message>
+  <message>
+   <source>{0} rectangles fit between the {1} planes that face east, west, north and south, more than the {2} of candidates.max_count; raise planes.min_support or lower candidates.max_ratio.</source>
+   <translation>{0} Rechtecke passen zwischen die {1} Ebenen nach Osten, Westen, Norden und Süden, mehr als die {2} von candidates.max_count; planes.min_support erhöhen oder candidates.max_ratio senken.</translation>
+  </message>
+  <message>
    <source>{0} regions</source>
    <translation>{0} Regionen</translation>
+  </message>
+  <message>
+   <source>{0} says that its points take {1} bytes each; it is damaged.</source>
+   <translation>{0} gibt für jeden Punkt {1} Bytes an; die Datei ist beschädigt.</translation>
+  </message>
+  <message>
+   <source>{0} scan</source>
+   <translation>{0} Scan</translation>
+  </message>
+  <message>
+   <source>{0} scans</source>
+   <translation>{0} Scans</translation>
+  </message>
+  <message>
+   <source>{0} takes about {1} MB more memory, and {2} MB are free; enlarge voxels.size (twice the size takes a quarter), crop the survey, or end other programs.</source>
+   <translation>{0} braucht etwa {1} MB Speicher mehr, und {2} MB sind frei; voxels.size vergrößern (doppelte Größe braucht ein Viertel), die Aufnahme zuschneiden oder andere Programme beenden.</translation>
+  </message>
+  <message>
+   <source>{0} triangles with corners absurdly far away were left out.</source>
+   <translation>{0} Dreiecke mit unsinnig weit entfernten Ecken wurden weggelassen.</translation>
+  </message>
+  <message>
+   <source>{0} unpacks to more than {1} bytes, which no log does.</source>
+   <translation>{0} ergibt entpackt mehr als {1} Bytes, wie es kein Protokoll tut.</translation>
   </message>
   <message>
    <source>{0} walls</source>
@@ -3574,6 +5298,22 @@
   <message>
    <source>{0} was not written.</source>
    <translation>{0} wurde nicht geschrieben.</translation>
+  </message>
+  <message>
+   <source>{0} was refused: {1} unpacks from {2} to {3} bytes, which no point cloud does.</source>
+   <translation>{0} wurde abgelehnt: {1} entpackt sich von {2} auf {3} Bytes, wie es keine Punktwolke tut.</translation>
+  </message>
+  <message>
+   <source>{0}, all within {1} m of height; a 2-D scan shows walls only with its trajectory.</source>
+   <translation>{0}, alle innerhalb von {1} m Höhe; ein 2D-Scan zeigt Wände nur mit seiner Trajektorie.</translation>
+  </message>
+  <message>
+   <source>{0}, as is usual: no images show so much of the same surfaces that it can be checked.</source>
+   <translation>{0}, wie üblich: Keine Bilder zeigen so viel derselben Flächen, dass es sich prüfen lässt.</translation>
+  </message>
+  <message>
+   <source>{0}, {1} m wide, {2} sure</source>
+   <translation>{0}, {1} m breit, {2} sicher</translation>
   </message>
   <message>
    <source>{0}, {1} wide, {2} sure</source>
@@ -3592,12 +5332,20 @@
    <translation>{0}: den Pfad als Argument angeben; es ist niemand zu fragen.</translation>
   </message>
   <message>
-   <source>{free} free of {total}</source>
-   <translation>{free} frei von {total}</translation>
+   <source>{0}: so {1} of what one image shows is where another shows it.</source>
+   <translation>{0}: So liegt {1} dessen, was ein Bild zeigt, da, wo ein anderes es zeigt.</translation>
   </message>
   <message>
-   <source>{language} from the next start on.</source>
-   <translation>{language} ab dem nächsten Start.</translation>
+   <source>{0}: {1} {2} messages of the topic {3} are read.</source>
+   <translation>{0}: {1} Nachrichten ({2}) des Topics {3} werden gelesen.</translation>
+  </message>
+  <message>
+   <source>{0}; check the unit and the up axis (--set input.unit=... or input.up=...), or scan more walls.</source>
+   <translation>{0}; Einheit und Hochachse prüfen (--set input.unit=... oder input.up=...) oder mehr Wände scannen.</translation>
+  </message>
+  <message>
+   <source>{free} free of {total}</source>
+   <translation>{free} frei von {total}</translation>
   </message>
   <message>
    <source>{low} to {high}</source>

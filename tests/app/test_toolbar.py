@@ -10,7 +10,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMenu, QToolButton
 from pytestqt.qtbot import QtBot
 
-from floorcast_app.main_window import MENU_GROUPS, SUBMENUS, MainWindow
+from floorcast_app.main_window import MainWindow
+from floorcast_app.menus import MENU_GROUPS, SUBMENUS
 from floorcast_app.panels.storey_chooser import StoreyChooser
 from floorcast_app.toolbar import SPELT, MainToolbar
 from floorplan_core.plugins import default_registry

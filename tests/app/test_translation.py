@@ -84,6 +84,43 @@ def test_actions_and_sentences_are_translated(german: None) -> None:
     assert translation.tr_text("Nothing of the kind.") == "Nothing of the kind."
 
 
+def test_every_sentence_with_gaps_is_found_again(german: None) -> None:
+    known = translate.read("de")
+    for source in translate.sentences():
+        said, shown = (re.sub(r"\{(\d+)\}", r"Xy\1", text) for text in (source, known[source]))
+        assert translation.tr_text(said) == shown
+
+
+def test_what_the_core_says_is_collected_from_it_and_shown_in_german(german: None, tmp_path: Path) -> None:
+    from floorplan_core.errors import InputError
+    from floorplan_core.readers import open_survey
+
+    broken = tmp_path / "broken.ply"
+    broken.write_bytes(b"ply\nformat ascii 1.0\nelement vertex 4\n")
+    said = []
+    for path in (tmp_path / "my scan.ply", broken):
+        with pytest.raises(InputError) as failure:
+            open_survey(path)
+        said.append(translation.tr_text(str(failure.value)))
+    assert said == [
+        f"Die Eingabe {tmp_path / 'my scan.ply'} gibt es nicht.",
+        "broken.ply gibt sich als PLY aus, aber der Kopf endet nicht ('end_header' fehlt).",
+    ]
+
+
+def test_sentences_in_a_row_and_within_each_other(german: None) -> None:
+    assert (
+        translation.tr_text(
+            "9,204 lines of a.xyz hold no point; they were left out. The trajectory is b.tum."
+        )
+        == "9.204 Zeilen von a.xyz enthalten keinen Punkt; sie wurden weggelassen. Die Trajektorie ist b.tum."
+    )
+    assert (
+        translation.tr_text("The plugin 'p' failed while reading a.xyz (KeyError) and was switched off.")
+        == "Die Erweiterung 'p' scheiterte, während sie a.xyz las (KeyError), und wurde abgeschaltet."
+    )
+
+
 def test_qt_itself_speaks_german_where_its_translation_is_installed(german: None) -> None:
     from PySide6.QtCore import QCoreApplication, QLibraryInfo
 

@@ -42,6 +42,26 @@ def test_the_tables_do_not_take_what_a_larger_window_gives(qtbot: QtBot) -> None
         qtbot.waitUntil(lambda: window.docks["region_list"].height() < 0.3 * window.height())
 
 
+def test_panes_keep_their_shares_in_a_larger_window_and_come_back_exactly(qtbot: QtBot) -> None:
+    def rested() -> bool:
+        QApplication.processEvents()
+        return not window._proportions.busy
+
+    def heights() -> list[int]:
+        qtbot.wait(100)
+        qtbot.waitUntil(rested)
+        return [window.docks[id].height() for id in ("space", "free_space", "region_list")]
+
+    with open_window(1440, 900) as window:
+        first = heights()
+        window.resize(1900, 1200)
+        larger = heights()
+        share = sum(larger) / sum(first)
+        assert all(abs(now - share * was) < 3 for now, was in zip(larger, first, strict=True))
+        window.resize(1440, 900)
+        assert all(abs(now - was) < 3 for now, was in zip(heights(), first, strict=True))
+
+
 def test_a_plan_that_was_whole_stays_whole_in_a_pane_of_another_size(qtbot: QtBot) -> None:
     with open_window(1440, 900) as window:
         w = window.workbench

@@ -15,12 +15,11 @@ from PySide6.QtWidgets import QApplication, QMainWindow
 from pytestqt.qtbot import QtBot
 
 from floorcast_app import theme
-from floorcast_app.dialogs import about, language, palette, screenshot, shortcuts, thumbnails
+from floorcast_app.dialogs import about, palette, screenshot, shortcuts, thumbnails
 from floorcast_app.dialogs.fuzzy import score
 from floorcast_app.dialogs.licences import works
 from floorcast_app.dialogs.thumbnails import ThumbnailKeeper, keep_thumbnail, thumbnail
 from floorcast_app.workbench import Workbench
-from floorplan_core.errors import UsageError
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -148,13 +147,6 @@ def test_about_shows_the_licence_of_what_is_chosen(window: Window, qtbot: QtBot)
     box.list.setCurrentItem(box.list.topLevelItem(at))
     assert "SIL Open Font License" in box.text.toPlainText()
     box.close()
-
-
-def test_a_language_that_is_not_there_is_refused(window: Window) -> None:
-    language.show(window, "de")  # type: ignore[arg-type]
-    assert window.told == ["Deutsch from the next start on."]
-    with pytest.raises(UsageError, match="There is no language 'fr'"):
-        language.show(window, "fr")  # type: ignore[arg-type]
 
 
 # ---- pictures -----------------------------------------------------------------------------------------
