@@ -62,11 +62,14 @@ def shows_lintels(profiles: Sequence[WallProfile]) -> bool:
     return lintel > _LINTELS * sum(int((p.low > 0).sum()) for p in profiles)
 
 
-def has_parapet(profile: WallProfile, start: float, end: float) -> bool:
-    """True where wall was seen along the whole aperture: a window or a hatch, not a door."""
+def has_parapet(profile: WallProfile, start: float, end: float, footless: bool = False) -> bool:
+    """True where wall was seen along the whole aperture: a window or a hatch, not a door.
+
+    :param footless: nothing was seen free near the floor; wall along most of the aperture tells then.
+    """
     a, b = (round((v - profile.start) / profile.step) for v in (start, end))
     inside = profile.low[a + 2 : b - 2]
-    return len(inside) > 0 and percentile(inside, 25) > _PARAPET
+    return len(inside) > 0 and percentile(inside, 50 if footless else 25) > _PARAPET
 
 
 def percentile(values: Float, q: float) -> float:

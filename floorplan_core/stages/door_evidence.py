@@ -34,6 +34,8 @@ _NO_PASSAGE = 0.05  # of the width: less is no straight passage at all
 _PASSED, _CLEARLY = 0.6, 0.7  # shares of an aperture from which it is open, whatever was seen in it
 _OUTWARD = 0.3  # most that an opening can earn behind which neither passage nor wall was seen
 _WHOLE_PASSAGE = 0.3  # of the width: more of a straight passage tells no more
+_ROOM = (4.0, 8.0)  # m, the width and the depth within which a room behind a wall has its far wall
+_THICK = 0.5  # m: what is nearer behind a face may be its own wall
 _DECIMALS = 3
 
 # Log odds of a whole measure, and of none. Fitted on 1377 apertures, penalty 0.0005 on the squared weights.
@@ -67,6 +69,7 @@ class DoorMeasures:
     flank: float  # and on the other side
     response: float  # of the matched filter
     both: float = 0.0  # 1 where the other face of the wall shows the same aperture
+    onward: float = 0.0  # 1 where the building goes on behind the wall
 
     def merged(self, other: DoorMeasures, both: bool) -> DoorMeasures:
         """The better of each; ``both``: the two are opposite faces of one wall."""
@@ -111,7 +114,7 @@ class DoorMeasures:
 
     def leads_on(self) -> bool:
         """False for glass to the outside: rays pass it, but nothing was seen to lie on its other side."""
-        return self.passage > _NO_PASSAGE or self.path > 0 or self.both > 0
+        return self.passage > _NO_PASSAGE or max(self.path, self.both, self.onward) > 0
 
 
 @dataclass(frozen=True)
@@ -133,9 +136,18 @@ def view_wall(plane: LayoutPlane, evidence: Evidence) -> WallView:
 
 
 def measure(
-    plane: LayoutPlane, start: float, end: float, response: float, view: WallView, evidence: Evidence
+    plane: LayoutPlane,
+    start: float,
+    end: float,
+    response: float,
+    view: WallView,
+    evidence: Evidence,
+    alike: Float,
 ) -> DoorMeasures:
-    """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``)."""
+    """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``).
+
+    :param alike: (K, 3) offset, start and end of all wall runs that look the way of ``plane``.
+    """
     profile = plane.profile
     assert profile is not None
     a, b = (round((v - profile.start) / profile.step) for v in (start, end))
@@ -151,7 +163,15 @@ def measure(
         flanks=flanks[0],
         flank=flanks[1],
         response=min(response, 1.0),
+        onward=float(_goes_on(plane, start, end, alike)),
     )
+
+
+def _goes_on(plane: LayoutPlane, start: float, end: float, alike: Float) -> bool:
+    """True where the far wall of a room behind the aperture, or of one beside that, was seen."""
+    behind = (plane.offset - alike[:, 0]) * plane.facing.sign
+    beside = np.minimum(alike[:, 2], end + _ROOM[0]) - np.maximum(alike[:, 1], start - _ROOM[0])
+    return bool(((behind > _THICK) & (behind < _ROOM[1]) & (beside > _FLANK)).any())
 
 
 def _mean(values: NDArray[np.generic]) -> float:

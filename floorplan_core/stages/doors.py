@@ -12,9 +12,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from floorplan_core.config import DoorsConfig
 from floorplan_core.geometry.halves import begin
-from floorplan_core.model import Door, LayoutPlane
+from floorplan_core.model import Door, Facing, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls, passing_offsets
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
@@ -23,6 +25,9 @@ from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from floorplan_core.stages.shut_doors import find_leaves, unknown_leaves
 
 _PASSABLE = 0.5  # m that two faces must have in common
+_BESIDE = 0.5  # m from an aperture, within which one of its planes was seen: it is cut into a wall
+_REVERSED = 0.02  # m by which noise may bring the face of a wall before its other face
+_FOOTLESS = 0.4  # of the area near the floor: what is free less may be a window above its sill
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,7 @@ def find_candidates(
 ) -> list[Candidate]:
     """The apertures of every plane with their measures; ``lintels``: the survey shows any at all."""
     crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
+    alike = {f: crossing_walls([p for p in planes if p.facing == f], f.axis) for f in Facing}
     found = []
     for plane in planes:
         assert plane.profile is not None
@@ -61,8 +67,8 @@ def find_candidates(
         for start, end, response in apertures(
             plane.profile, view.open, plane.walls, meets, config, lintels, past
         ):
-            seen = measure(plane, start, end, response, view, evidence)
-            if seen.is_open() or not has_parapet(plane.profile, start, end):
+            seen = measure(plane, start, end, response, view, evidence, alike[plane.facing])
+            if seen.is_open() or not has_parapet(plane.profile, start, end, seen.foot < _FOOTLESS):
                 found.append(_candidate(plane, start, end, seen))
     return found
 
@@ -86,18 +92,33 @@ def _kind(door: Door, config: DoorsConfig) -> Door:
 def merge_faces(
     found: Sequence[Candidate], planes: Sequence[LayoutPlane], config: DoorsConfig
 ) -> list[Candidate]:
-    """One candidate for the two faces of a wall, and for two planes of one face; the surest come first."""
-    facing = {p.id: p.facing for p in planes}
+    """One candidate for the two faces of a wall, and for two planes of one face; the surest come first.
+
+    Where its plane was not seen beside it, an aperture is a gap in the line of a wall that stands elsewhere:
+    it only adds to another. Of two in surfaces that look at each other the first stays.
+    """
+    named = {p.id: p for p in planes}
     out: list[Candidate] = []
-    for candidate in sorted(found, key=_surest_first):
+    for candidate in sorted(found, key=lambda c: (not _is_beside(c.door, named), *_surest_first(c))):
         for k, other in enumerate(out):
             if _same_opening(candidate.door, other.door, config):
-                both = facing[candidate.door.planes[0]] != facing[other.door.planes[0]]
-                out[k] = _merged(other, candidate, both)
+                mine, face = (named[c.door.planes[0]] for c in (candidate, other))
+                if not _look_at_each_other(mine, face):
+                    out[k] = _merged(other, candidate, mine.facing != face.facing)
                 break
         else:
             out.append(candidate)
-    return out
+    return [c for c in out if _is_beside(c.door, named)]
+
+
+def _look_at_each_other(a: LayoutPlane, b: LayoutPlane) -> bool:
+    return a.facing != b.facing and (b.offset - a.offset) * a.facing.sign > _REVERSED
+
+
+def _is_beside(door: Door, planes: dict[str, LayoutPlane]) -> bool:
+    """True where one of its planes was itself seen next to a door."""
+    seen = np.concatenate([planes[p].observed for p in door.planes])
+    return bool(((seen[:, 0] < door.end + _BESIDE) & (seen[:, 1] > door.start - _BESIDE)).any())
 
 
 def _surest_first(candidate: Candidate) -> tuple[float, int, float, float]:

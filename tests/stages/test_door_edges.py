@@ -18,7 +18,11 @@ from tests.drawn_cells import seen_free
 EXACT = 0.015  # m
 START, END = 2.0, 2.9  # of the door
 NEAR, FAR = 4.0, 4.14  # the faces of its wall
-PLANES = (LayoutPlane("p1", Facing.WEST, NEAR), LayoutPlane("p2", Facing.EAST, FAR))
+SEEN = np.array([[0.0, 1.95], [2.95, 5.0]])  # where the faces of the wall were seen
+PLANES = (
+    LayoutPlane("p1", Facing.WEST, NEAR, observed=SEEN),
+    LayoutPlane("p2", Facing.EAST, FAR, observed=SEEN),
+)
 
 
 def _grid(*axes: np.ndarray) -> np.ndarray:
@@ -91,3 +95,25 @@ def test_the_two_faces_share_what_is_open_in_both():
     (merged,) = merge_faces([one, hidden], PLANES, DoorsConfig())
     assert (merged.door.start, merged.door.end) == (2.0, 2.9)
     assert merged.door.thickness == pytest.approx(FAR - NEAR)
+
+
+ONE = Candidate(
+    Door("", ("p1",), 0, NEAR, 2.0, 2.9), DoorMeasures(1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9)
+)
+
+
+def test_surfaces_that_look_at_each_other_are_no_faces_of_one_wall():
+    turned = (PLANES[0], replace(PLANES[1], offset=NEAR - 0.1))  # before the face, and looks at it
+    other = Candidate(replace(ONE.door, planes=("p2",), offset=NEAR - 0.1), ONE.measures)
+    (kept,) = merge_faces([ONE, other], turned, DoorsConfig())
+    assert (kept.measures.both, kept.door.thickness, len(kept.door.planes)) == (0.0, 0.0, 1)
+
+
+def test_the_gap_in_the_line_of_a_wall_that_stands_elsewhere_is_none():
+    far = tuple(replace(p, observed=SEEN + 9.0) for p in PLANES)
+    assert merge_faces([ONE], far, DoorsConfig()) == []
+    behind = Candidate(replace(ONE.door, planes=("p2",), offset=FAR), ONE.measures)
+    (both,) = merge_faces(
+        [ONE, behind], (PLANES[0], far[1]), DoorsConfig()
+    )  # but it adds to one that is none
+    assert both.door.planes == ("p1", "p2")

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.model import WallProfile
+from floorplan_core.model import Facing, LayoutPlane, WallProfile
 from floorplan_core.stages.door_apertures import apertures
-from floorplan_core.stages.door_evidence import DoorMeasures
+from floorplan_core.stages.door_evidence import DoorMeasures, WallView, measure
+from tests.drawn_cells import drawn
 
 DOOR = DoorMeasures(1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9, 1.0)
 # A cabinet before a wall: no surface below 2 m, wall above and beside, nothing seen behind.
@@ -60,6 +61,23 @@ def test_glass_to_the_outside_stays_below_the_threshold():
     outward = replace(DOOR, passage=0.0, both=0.0)
     assert outward.confidence(True) < DoorsConfig().min_confidence
     assert replace(outward, both=1.0).confidence(True) > 0.9
+
+
+def test_what_is_dark_behind_a_wall_of_the_building_is_no_glass_to_the_outside():
+    outward = replace(SLANTED, passage=0.0)
+    assert outward.confidence(True) < DoorsConfig().min_confidence
+    assert replace(outward, onward=1.0).confidence(True) > DoorsConfig().min_confidence
+
+
+@pytest.mark.parametrize(
+    ("offset", "start", "onward"), [(4.0, 0.0, 1.0), (4.0, 8.0, 0.0), (9.7, 0.0, 0.0)], ids=str
+)
+def test_a_door_leads_on_where_a_room_behind_it_has_its_far_wall(offset, start, onward):
+    none = np.zeros(240)
+    plane = LayoutPlane("p1", Facing.EAST, 10.0, profile=WallProfile(0.0, 0.05, none, none, none))
+    alike = np.array([[10.0, 0.0, 4.0], [offset, start, start + 4.0]])
+    view = WallView(none, none, none)
+    assert measure(plane, 1.0, 2.0, 0.9, view, drawn([], []), alike).onward == onward
 
 
 def test_words_name_what_was_found():

@@ -67,3 +67,24 @@ def test_three_rooms_come_apart() -> None:
     rooms = split(cells, [door("d1", 1.5), door("d2", 4.8), door("d3", 8.0)])
     assert len(rooms) == 3
     assert shapely.union_all(rooms).area == pytest.approx(sum(r.area for r in rooms))
+
+
+CORRIDOR = (1.0, 1.0, 3.0, 5.0)  # runs past the wall below y = 3, around whose end the region reaches
+HALL, BEHIND = (3.0, 1.0, 9.0, 2.9), (5.5, 3.2, 8.0, 4.5)
+INNER = Door("d1", (), 1, 3.0, 6.0, 6.9, thickness=0.1)
+
+
+def test_the_room_behind_a_door_is_cut_off_where_the_region_reaches_around_its_wall() -> None:
+    face = LayoutPlane("p1", Facing.WEST, 3.1, support=3.0)
+    shape = shapely.difference(shapely.box(1, 1, 10, 5), shapely.box(3.1, 2.95, 10, 3.15))
+    cells = grid(CORRIDOR, HALL, BEHIND, (6.0, 2.9, 6.9, 3.2))
+    corner, room = sorted(RoomSplitter((face,), [INNER], cells, THICK).split(shape), key=lambda r: r.bounds)
+    assert corner.bounds == pytest.approx((1, 1, 10, 5))
+    assert room.bounds == pytest.approx((3.1 + THICK, 3.15, 10, 5))
+    assert shape.area - corner.area - room.area == pytest.approx(THICK * 1.85, abs=0.02)
+
+
+def test_a_door_parts_nothing_where_free_space_leads_around_its_wall() -> None:
+    shape = shapely.difference(shapely.box(1, 1, 10, 5), shapely.box(3.1, 2.95, 10, 3.15))
+    cells = grid(CORRIDOR, HALL, (3.0, 3.2, 8.0, 4.5), (6.0, 2.9, 6.9, 3.2))
+    assert len(RoomSplitter((), [INNER], cells, THICK).split(shape)) == 1
