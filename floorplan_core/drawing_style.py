@@ -20,7 +20,16 @@ LANGUAGES = ("en", "de")
 
 GERMAN = {
     "Floor plan": "Grundriss",
+    "Floor plan of {}": "Grundriss von {}",
     "Floor plan of {}, {}": "Grundriss von {}, {}",
+    "Net area to the inside of walls {}, {} % of it predicted, not seen": (
+        "Nettofläche bis zu den Wänden {}, davon {} % vorhergesagt, nicht gesehen"
+    ),
+    "{}, coordinates of the input; layers -PRED hold what was predicted": (
+        "{}, Koordinaten der Aufnahme; die Layer -PRED enthalten Vorhergesagtes"
+    ),
+    "Metres": "Meter",
+    "Dimensions in feet and inches, drawn in metres": "Maße in Fuß und Zoll, gezeichnet in Metern",
     "Legend": "Legende",
     "Scale and north": "Maßstab und Norden",
     "north = world +y": "Nord = +y der Welt",

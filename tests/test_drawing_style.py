@@ -92,7 +92,7 @@ def test_only_exporters_of_words_have_a_style(tmp_path: Path) -> None:
     assert in_style(geojson, IMPERIAL) is geojson
     registry = default_registry()
     styled = {e.name for e in registry.exporters if getattr(e, "has_style", False)}
-    assert styled == {"SVG", "PNG", "Planes PNG", "Occupancy PNG"}
+    assert styled == {"SVG", "PNG", "Planes PNG", "Occupancy PNG", "PDF", "DXF"}
     made = in_style(registry.exporter(Path("plan.svg")), IMPERIAL)
     made.write(small_flat(), tmp_path / "plan.svg")
     SvgExporter(IMPERIAL).write(small_flat(), tmp_path / "other.svg")

@@ -84,7 +84,7 @@ class ExportDialog(Dialog):
         styled = getattr(exporter, "has_style", False)
         self.about.setText(tr(exporter.description))
         self.note.setText(
-            tr("Lengths, areas and words of the drawing; its scale and paper go with the units.")
+            tr("Lengths, areas and words as the drawing writes them.")
             if styled
             else tr("This format has metres and English words for every reader.")
         )

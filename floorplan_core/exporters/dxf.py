@@ -2,7 +2,8 @@
 
 Layers are named as the US National CAD Standard (AIA) names them; what is predicted has dashed layers of its
 own that end in ``-PRED``, so that a drafter can freeze what nobody saw. Dimensions are DIMENSION entities.
-DXF has no unit but ``$INSUNITS``, which says metres. The same plan always gives the same bytes.
+DXF has no unit but ``$INSUNITS``, which says metres in every style: imperial drawings keep the geometry of
+the survey and only write feet and inches. The same plan always gives the same bytes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.drawing_style import NEARLY, PLAIN, DrawingStyle
 from floorplan_core.exporters.dimensions import Span, chain, overall_span
 from floorplan_core.exporters.door_symbols import Leaf, swings
 from floorplan_core.exporters.svg_labels import display_name
@@ -46,6 +48,14 @@ LINE = 1.6  # distance of lines over height of text
 ROW = 0.9  # m between the walls and the chain of dimensions, and to the overall one
 HATCH = 0.15  # m between the lines over predicted floor
 STYLE = "FLOORCAST"
+INCHES = 1 / 0.0254  # in a metre
+ARCHITECTURAL = {  # feet, inches and quarters of them beside each other, both also where they are zero
+    "dimlunit": 4,
+    "dimlfac": INCHES,
+    "dimdec": 2,
+    "dimfrac": 2,
+    "dimzin": 1,
+}
 SIDES = ((1, 1), (1, -1), (0, 1), (0, -1))  # axis of the faces' normal and its sign
 
 
@@ -58,15 +68,22 @@ class DxfExporter:
         "A CAD drawing in metres: walls, doors, areas, dimensions; predicted parts on layers of their own."
     )
 
+    def __init__(self, style: DrawingStyle = PLAIN) -> None:
+        self._style = style
+
+    def styled(self, style: DrawingStyle) -> DxfExporter:
+        """The exporter of drawings whose dimensions and words are in these units, in this language."""
+        return DxfExporter(style)
+
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the drawing of ``plan`` to ``path``."""
-        path.write_text(dxf_text(plan), encoding="utf-8", newline="\n")
+        path.write_text(dxf_text(plan, self._style), encoding="utf-8", newline="\n")
 
 
-def dxf_text(plan: FloorPlan) -> str:
+def dxf_text(plan: FloorPlan, style: DrawingStyle = PLAIN) -> str:
     """The drawing of ``plan`` as the text of an ASCII DXF document."""
     with _same_bytes():
-        drawing = _Drawing(plan)
+        drawing = _Drawing(plan, style)
         drawing.draw_areas()
         drawing.draw_walls()
         drawing.draw_doors()
@@ -96,11 +113,11 @@ def _same_bytes() -> Iterator[None]:
 class _Drawing:
     """A document with our layers, and the parts of a plan to put into it."""
 
-    def __init__(self, plan: FloorPlan) -> None:
+    def __init__(self, plan: FloorPlan, style: DrawingStyle) -> None:
         import ezdxf
         from ezdxf import units
 
-        self.plan, self.walls = plan, poche(plan)
+        self.plan, self.walls, self.style = plan, poche(plan), style
         self.document = ezdxf.new("R2010", units=units.M)
         self.document.linetypes.add("DASHED", DASH, description="Predicted __ __ __")
         for name, colour, dashed in LAYERS:
@@ -119,10 +136,11 @@ class _Drawing:
                 "dimgap": DIMENSION / 3,
                 "dimtad": 1,  # text above the line
                 "dimdec": 3,
-                "dimdsep": ord("."),
+                "dimdsep": ord(self.style.short(0.5)[1]),
                 "dimtix": 1,  # inside, however short: the width of text depends on the fonts of a machine
                 "dimzin": 0,
                 "dimlunit": 2,
+                **(ARCHITECTURAL if self.style.imperial else {}),
             }
         )
 
@@ -176,10 +194,24 @@ class _Drawing:
         area = sum(r.area for r in plan.regions)
         unseen = sum(r.area * r.speculated_fraction for r in plan.regions)
         share = 100 * unseen / area if area else 0.0
+        say, units = self.style.say, "Dimensions in feet and inches, drawn in metres"
         return [
-            (f"Floor plan of {plan.source}", TITLE),
-            (f"Net area to the inside of walls {area:.2f} m2, {share:.0f} % of it predicted, not seen", NOTE),
-            ("Metres, coordinates of the input; layers -PRED hold what was predicted", NOTE),
+            (say("Floor plan of {}", plan.source), TITLE),
+            (
+                say(
+                    "Net area to the inside of walls {}, {} % of it predicted, not seen",
+                    _plain(self.style.area(area)),
+                    f"{share:.0f}",
+                ),
+                NOTE,
+            ),
+            (
+                say(
+                    "{}, coordinates of the input; layers -PRED hold what was predicted",
+                    say(units if self.style.imperial else "Metres"),
+                ),
+                NOTE,
+            ),
         ]
 
     def _extent(self) -> tuple[float, float, float, float]:
@@ -228,9 +260,13 @@ class _Drawing:
 
     def _label(self, region: Region) -> None:
         at = shapely.get_coordinates(shapely.point_on_surface(region.polygon))
-        seen = f"{100 * (1 - region.speculated_fraction):.0f} % seen"
-        note = seen if region.name.isdigit() else f"{region.label}, {seen}"
-        rows = [(display_name(region), NAME), (f"{region.area:.2f} m2", NOTE), (note, NOTE)]
+        seen = self.style.say("{} % seen", f"{100 * (1 - region.speculated_fraction):.0f}")
+        note = seen if region.name.isdigit() else f"{self.style.say(region.label)}, {seen}"
+        rows = [
+            (display_name(region, self.style), NAME),
+            (_plain(self.style.area(region.area)), NOTE),
+            (note, NOTE),
+        ]
         turn = math.radians(self._angle())
         down = np.array([math.sin(turn), -math.cos(turn)])
         start = self._to_world(at)[0]
@@ -251,16 +287,27 @@ class _Drawing:
         line = np.array([[(span.start + span.end) / 2, across]])
         points = np.vstack([faces, line])
         a, b, base = self._to_world(points if axis == 1 else points[:, ::-1])
+        measured = f"{NEARLY if span.guessed else ''}<>"
         dimension = self.space.add_linear_dim(
             base.tolist(),
             a.tolist(),
             b.tolist(),
             angle=_slope(a, b),
-            text="≈<>" if span.guessed else "<>",
+            text=_plain(self.style.dimension(span.length, span.guessed)) if self.style.imperial else measured,
             dimstyle=STYLE,
             dxfattribs={"layer": "A-ANNO-DIMS"},
         )
         dimension.render()
+        dimension.dimension.dxf.text = (
+            measured  # ezdxf draws decimals only; CAD programs measure by the style
+        )
+
+
+def _plain(text: str) -> str:
+    """Without the signs that fonts of CAD programs do not have."""
+    for sign, instead in {"²": "2", "¼": " 1/4", "½": " 1/2", "¾": " 3/4"}.items():
+        text = text.replace(sign, instead)
+    return text
 
 
 def _slope(a: Float, b: Float) -> float:

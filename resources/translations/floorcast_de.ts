@@ -1368,8 +1368,8 @@
    <translation>Längen</translation>
   </message>
   <message>
-   <source>Lengths, areas and words of the drawing; its scale and paper go with the units.</source>
-   <translation>Längen, Flächen und Wörter der Zeichnung; Maßstab und Papier richten sich nach den Einheiten.</translation>
+   <source>Lengths, areas and words as the drawing writes them.</source>
+   <translation>Längen, Flächen und Wörter, wie die Zeichnung sie schreibt.</translation>
   </message>
   <message>
    <source>Lengths, differences, percentages, means and accuracy bands as CSV.</source>

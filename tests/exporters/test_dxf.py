@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import ezdxf
 import numpy as np
@@ -16,14 +17,15 @@ import pytest
 import shapely
 from ezdxf.document import Drawing
 
+from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters.dxf import LAYERS, DxfExporter, dxf_text
 from floorplan_core.exporters.walls import poche, predicted_floor
 from floorplan_core.model import FloorPlan
 from tests.factories import DoorSpec, RoomSpec, l_corridor, make_plan, small_flat
 
 
-def read(plan: FloorPlan) -> Drawing:
-    document = ezdxf.read(io.StringIO(dxf_text(plan)))
+def read(plan: FloorPlan, style: DrawingStyle = PLAIN) -> Drawing:
+    document = ezdxf.read(io.StringIO(dxf_text(plan, style)))
     audit = document.audit()
     assert not audit.errors
     assert not audit.fixes
@@ -114,6 +116,34 @@ def test_a_length_to_a_wall_that_nobody_saw_is_only_about_right() -> None:
 def test_names_and_areas_are_written() -> None:
     texts = {t.dxf.text for t in read(small_flat()).modelspace().query('TEXT[layer=="A-AREA-IDEN"]')}
     assert {"Living & dining", "14.28 m2", "room, 100 % seen"} <= texts
+
+
+def _written(document: Drawing, dimension: Any) -> str:
+    """What a dimension's block shows where a program does not measure for itself."""
+    (text,) = document.blocks[dimension.dxf.geometry].query("MTEXT")
+    return str(text.text)
+
+
+def test_an_imperial_drawing_keeps_its_place_and_says_feet_and_inches() -> None:
+    metric, imperial = read(l_corridor()), read(l_corridor(), DrawingStyle("imperial"))
+    assert imperial.units == ezdxf.units.M
+    assert [r.wkt for r in rings(imperial, "A-AREA")] == [r.wkt for r in rings(metric, "A-AREA")]
+    style = imperial.dimstyles.get("FLOORCAST").dxf
+    assert (style.dimlunit, style.dimlfac) == (4, pytest.approx(39.3700787))
+    for dimension in imperial.query("DIMENSION"):
+        assert dimension.dxf.text.endswith("<>"), "CAD programs measure anew"
+        assert "' " in _written(imperial, dimension)
+    assert any(t.dxf.text.endswith(" sq ft") for t in imperial.query("TEXT"))
+
+
+def test_a_german_drawing_keeps_its_layers_and_says_it_in_german() -> None:
+    german = read(l_corridor(), DrawingStyle(language="de"))
+    assert {layer.dxf.name for layer in german.layers} == {
+        layer.dxf.name for layer in read(l_corridor()).layers
+    }
+    texts = [t.dxf.text for t in german.query("TEXT")]
+    assert any(t.startswith("Raum ") for t in texts) and any("Nettofläche" in t for t in texts)
+    assert all("," in _written(german, d) for d in german.query("DIMENSION"))
 
 
 def test_same_plan_same_bytes(tmp_path: Path) -> None:
