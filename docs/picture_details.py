@@ -36,7 +36,7 @@ DETAILS = (
     Detail("limits-kitchen", "duplex", (-2.8, -12.8, 5.9, -4.6)),
     Detail("limits-stairs", "duplex", (3.2, -6.9, 5.9, -2.4)),
     Detail("limits-balcony", "house", (-3.6, -7.6, 9.2, 4.3)),
-    Detail("limits-pair", "fr079", (8.3, -7.3, 28.4, 7.1)),
+    Detail("limits-pair", "fr079", (3.6, -7.3, 21.2, 7.1)),
     Detail("limits-hall", "intel", (-3.5, 3.6, 14.0, 17.7)),
 )
 

@@ -129,8 +129,8 @@ def lay_out(
     found = (planes, segments, doors, grid)
     regions = stage(
         "regions",
-        lambda: build_regions(cover, *found, config.regions, flights),
-        *(cover, *found, config.regions, flights),
+        lambda: build_regions(cover, *found, config.regions, flights, evidence.inferred),
+        *(cover, *found, config.regions, flights, evidence.inferred),
     )
     regions, planes, remarks = stage.correct(
         "shapes",

@@ -52,10 +52,12 @@ def build_regions(
     grid: OccupancyGrid,
     config: RegionsConfig,
     flights: Sequence[Flight] = (),
+    inferred: bool = False,
 ) -> tuple[Region, ...]:
     """The regions in reading order (top to bottom, left to right), without label or turning distance.
 
     :param flights: of stairs, each a region of its own.
+    :param inferred: True where free space was not seen, but inferred from floor and ceiling.
     """
     groups = connected_groups(cover.bounds, separators(planes, doors))
     standing = standing_walls(planes, config.wall_support)
@@ -66,7 +68,7 @@ def build_regions(
     walls = WallSurfaces(planes, segments)
     pieces: list[tuple[Any, NDArray[np.int64]]] = []
     splitter = RoomSplitter(planes, doors, grid, walls.thickness)
-    extender = WallExtender(planes, grid, walls.thickness)
+    extender = WallExtender(planes, grid, walls.thickness, inferred)
     for shape, (rows, _) in zip(shapes, groups, strict=True):
         halves = [half for part in polygons_of(shape) for half in extender.split(part)]
         rooms = [

@@ -18,7 +18,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.raster import edges_of, polygon_window
-from floorplan_core.geometry.rectilinear import chords, polygons_of
+from floorplan_core.geometry.rectilinear import chords, open_polygon, polygons_of
 from floorplan_core.model import LayoutPlane, OccupancyGrid
 
 Float = NDArray[np.float64]
@@ -28,6 +28,8 @@ _INSIDE = 0.25  # m from the sides of the region, within which a wall is its sid
 _LED_TO = 0.35  # m from the end of a wall to where a region goes on: the cut along it ends a little later
 _TOUCH = 0.3  # m between the end of a wall and another that it meets there
 _CROSSED = 0.25  # m of the line that may have been seen free: cells are coarse
+_DOORWAY, _GAP = 0.95, 1.9  # the same where free space is a guess, in a gap so wide beyond a longer wall
+_STRIP = 1.0  # m: what is no wider is no room that such a guess parts from another
 _LEAST = 0.1  # m2 of free cells in each part; less in one of them shows nothing
 _EXACT = 1e-6  # m
 
@@ -35,9 +37,12 @@ _EXACT = 1e-6  # m
 class WallExtender:
     """Parts regions along seen walls that go on unseen."""
 
-    def __init__(self, planes: Sequence[LayoutPlane], grid: OccupancyGrid, thickness: float) -> None:
+    def __init__(
+        self, planes: Sequence[LayoutPlane], grid: OccupancyGrid, thickness: float, inferred: bool = False
+    ) -> None:
         seen = [p for p in planes if not p.speculated and not p.recess and p.by_hand != "hidden"]
         self._grid, self._thickness = grid, thickness
+        self._doorway = _DOORWAY if inferred else 0.0
         walls = [
             (p.facing.axis, p.offset - p.facing.sign * thickness / 2, s, e)
             for p in seen
@@ -58,11 +63,11 @@ class WallExtender:
         if not len(walls):
             return [polygon]
         edges, grid = edges_of(polygon), self._grid
-        found = _going_on(edges, walls, *self._faces, grid.universe, grid.origin, grid.cell)
+        found = _going_on(edges, walls, *self._faces, grid.universe, grid.origin, grid.cell, self._doorway)
         for wall in np.unique(found[:, 0]):
-            cut = self._cut(found[found[:, 0] == wall, 1:])
-            parts = polygons_of(shapely.difference(polygon, cut))
-            if len(parts) > 1:
+            lines = found[found[:, 0] == wall, 1:]
+            parts = polygons_of(shapely.difference(polygon, self._cut(lines[:, :4])))
+            if len(parts) > 1 and not (lines[:, 4].any() and any(_is_strip(part) for part in parts)):
                 seen = [part for part in parts if self._free(part) >= _LEAST]
                 if seen and sum(map(self._free, seen)) >= self._free(polygon) - _LEAST:
                     return [room for part in seen for room in self.split(part)]
@@ -93,6 +98,11 @@ class WallExtender:
         return float(np.count_nonzero(self._grid.universe[window] & inside)) * self._grid.cell**2
 
 
+def _is_strip(polygon: Any) -> bool:
+    """True where no room is."""
+    return bool(open_polygon(polygon, _STRIP).is_empty)
+
+
 def _observed(plane: LayoutPlane, start: float, end: float) -> float:
     """Metres of a run that were really seen."""
     common = np.minimum(plane.observed[:, 1], end) - np.maximum(plane.observed[:, 0], start)
@@ -100,9 +110,12 @@ def _observed(plane: LayoutPlane, start: float, end: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _going_on(edges, walls, upright, level, universe, origin, cell):  # type: ignore[no-untyped-def]
-    """(K, 5) wall, axis, middle, from, to of the chords of the polygon along which a wall goes on."""
-    out = np.empty((len(walls) * len(edges), 5))
+def _going_on(edges, walls, upright, level, universe, origin, cell, doorway):  # type: ignore[no-untyped-def]
+    """(K, 6) wall, axis, middle, from, to of the chords of the polygon along which a wall goes on.
+
+    The last is 1 where that is a guess: a doorway's width of the chord may be free.
+    """
+    out = np.empty((len(walls) * len(edges), 6))
     count = 0
     for w in range(len(walls)):
         axis, middle, start, end = int(walls[w, 0]), walls[w, 1], walls[w, 2], walls[w, 3]
@@ -110,23 +123,21 @@ def _going_on(edges, walls, upright, level, universe, origin, cell):  # type: ig
         for a, b in chords(edges, axis, middle):
             if not _is_on(a, b, start, end):
                 continue
-            on = True
+            on, guess = True, 0.0
             for low, high in ((a, min(b, start)), (max(a, end), b)):
                 if high - low <= _EXACT:
                     continue
                 tip = end if low >= end - _EXACT else start
                 free = _free_along(universe, axis, middle, low, high, origin, cell)
-                if (high - low > _INSIDE and _is_met(across, tip, middle)) or free > _CROSSED:
+                if high - low > _INSIDE and _is_met(across, tip, middle):
                     on = False
+                elif free > _CROSSED:
+                    on, guess = free <= doorway and high - low <= min(_GAP, end - start), 1.0
+                if not on:
                     break
             if on:
-                out[count, 0], out[count, 1], out[count, 2], out[count, 3], out[count, 4] = (
-                    w,
-                    axis,
-                    middle,
-                    a,
-                    b,
-                )
+                out[count, 0], out[count, 1], out[count, 2] = w, axis, middle
+                out[count, 3], out[count, 4], out[count, 5] = a, b, guess
                 count += 1
     return out[:count]
 

@@ -81,3 +81,26 @@ def test_of_a_wall_in_two_places_one_may_go_on_and_the_other_not() -> None:
     across = wall(Facing.NORTH, 5.3, 5.1, 5.4)
     parts = WallExtender([wall_to_bay, across], grid(LEFT, RIGHT), THICK).split(bay)
     assert len(parts) == 2
+
+
+@pytest.mark.parametrize(
+    ("start", "inferred", "parts"),
+    [
+        (1.0, True, 2),  # 2.9 m of wall, and a doorway beyond it
+        (1.0, False, 1),  # seen to be free: what parts rooms there is a door, or nothing
+        (2.6, True, 1),  # as much gap as wall
+    ],
+)
+def test_where_free_space_is_a_guess_a_doorway_beyond_a_long_wall_may_be_one(start, inferred, parts):
+    passed = (2.0, 4.2, 9.0, 4.9)  # 0.7 m of the line, between the wall's end and the far side
+    stub = wall(Facing.WEST, 5.0, start, 3.6)
+    cells = grid(LEFT, RIGHT, passed)
+    near = shapely.box(1, 1, 10, 5) if start == 1.0 else shapely.box(1, 2.6, 10, 5)
+    assert len(WallExtender([stub], cells, THICK, inferred).split(near)) == parts
+
+
+def test_such_a_guess_parts_no_strip_from_a_room() -> None:
+    """0.9 m beside a wall is a cabinet's place, and no room."""
+    beside = shapely.box(4.04, 1, 10, 5)
+    cells = grid((4.1, 1.0, 4.9, 4.0), RIGHT, (4.1, 4.2, 9.0, 4.9))
+    assert WallExtender([wall(Facing.WEST, 5.0, 1.0, 3.6)], cells, THICK, True).split(beside) == [beside]
