@@ -23,7 +23,7 @@ from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
 from floorplan_core.readers.foreign import spread_sample
-from floorplan_core.readers.source import EmptyInput, PointSource, RawChunk, ScanIds
+from floorplan_core.readers.source import SAMPLE_BLOCKS, EmptyInput, PointSource, RawChunk, ScanIds
 from floorplan_core.readers.text_rows import TextLayout, text_chunks, text_sample
 from floorplan_core.readers.trajectory_check import WrongTrajectory
 from floorplan_core.readers.trajectory_forms import is_rigid
@@ -160,9 +160,10 @@ def _skip_lines(handle: BinaryIO, count: int) -> int:
     """Go ``count`` lines ahead, or to the end of the file; returns how many there were."""
     found, open_line = 0, False
     while found < count and (block := handle.read(BLOCK_BYTES)):
-        inside = block.count(b"\n")
+        ends_here = np.frombuffer(block, np.uint8) == ord("\n")
+        inside = int(np.count_nonzero(ends_here))
         if found + inside >= count:
-            ends = np.flatnonzero(np.frombuffer(block, np.uint8) == ord("\n"))
+            ends = np.flatnonzero(ends_here)
             handle.seek(int(ends[count - found - 1]) + 1 - len(block), SEEK_CUR)
             return count
         found += inside
@@ -202,7 +203,8 @@ def _chunks(path: Path, scans: list[PtxScan]) -> Iterator[RawChunk]:
 def _sample(path: Path, scans: list[PtxScan]) -> RawChunk:
     """Points of scans that are spread over the file, in file coordinates."""
     rows = np.unique(np.linspace(0, len(scans) - 1, SAMPLE_SCANS).astype(int)).tolist()
-    return spread_sample([_placed(text_sample(path, _layout(scans[r])), scans[r], r) for r in rows])
+    blocks = min(SAMPLE_BLOCKS, 4 * SAMPLE_BLOCKS // len(rows))  # more than enough: many rays have no return
+    return spread_sample([_placed(text_sample(path, _layout(scans[r]), blocks), scans[r], r) for r in rows])
 
 
 def _layout(scan: PtxScan) -> TextLayout:

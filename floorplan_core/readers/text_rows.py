@@ -47,16 +47,16 @@ def text_chunks(path: Path, layout: TextLayout) -> Iterator[RawChunk]:
         yield parse_block(block, layout)
 
 
-def text_sample(path: Path, layout: TextLayout) -> RawChunk:
-    """About ``SAMPLE_POINTS`` rows in blocks that are spread evenly over the file."""
+def text_sample(path: Path, layout: TextLayout, blocks: int = SAMPLE_BLOCKS) -> RawChunk:
+    """Some 250 rows in each of so many blocks that are spread evenly over the file."""
     end = path.stat().st_size if layout.end is None else layout.end
     # 32 bytes are a usual row of three coordinates; longer rows only make the sample smaller.
     block = SAMPLE_POINTS // SAMPLE_BLOCKS * 32
-    if end - layout.offset <= block * SAMPLE_BLOCKS:
+    if end - layout.offset <= block * blocks:
         return parse_block(b"".join(_line_blocks(path, layout.offset, layout.end)), layout)
     parts = []
     with path.open("rb") as handle:
-        for start in np.linspace(layout.offset, end - block, SAMPLE_BLOCKS).astype(np.int64).tolist():
+        for start in np.linspace(layout.offset, end - block, blocks).astype(np.int64).tolist():
             handle.seek(start)
             if start != layout.offset:
                 handle.readline(MAX_LINE_BYTES)
@@ -69,7 +69,9 @@ def text_scan_ids(path: Path, layout: TextLayout) -> ScanIds | None:
     """Range and order of the scan ids; None without such a column, or where the file is too long to look."""
     if layout.scan_id is None or path.stat().st_size > ORDER_PASS_BYTES:
         return None
-    ids = join_chunks([*text_chunks(path, layout), _rows_to_chunk(_no_rows(layout), layout)]).scan_id
+    ids = join_chunks(
+        [*text_chunks(path, layout), _rows_to_chunk(np.empty((0, len(_used(layout)))), layout)]
+    ).scan_id
     if ids is None or not len(ids):
         return None
     return ScanIds(int(ids.min()), int(ids.max()), bool((ids[1:] >= ids[:-1]).all()))
@@ -105,10 +107,19 @@ def skip_lines(path: Path, offset: int, count: int) -> int:
 
 def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
     """Points of whole lines."""
-    text = normalise(block, layout)
-    rows = _parse_at_once(text, layout)
-    rows = _parse_columns(text, layout) if rows is None else rows
+    rows = _parse_by_kernel(block, layout) if len(block) > KERNEL_FROM else None
+    if rows is None:
+        text = normalise(block, layout)
+        rows = _parse_at_once(text, layout)
+        rows = _parse_columns(text, layout) if rows is None else rows
     return _rows_to_chunk(rows, layout) if rows is not None else _parse_lines(text, layout)
+
+
+def _parse_by_kernel(block: bytes, layout: TextLayout) -> Float | None:
+    from floorplan_core.readers.plain_numbers import parse_numbers  # compiled: only for what is worth it
+
+    decimal = "," if layout.decimal_comma else "."
+    return parse_numbers(block, layout.columns, _used(layout), layout.separator, decimal)
 
 
 def normalise(block: bytes, layout: TextLayout) -> bytes:
@@ -121,33 +132,26 @@ def normalise(block: bytes, layout: TextLayout) -> bytes:
 
 
 def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:
+    """The used columns, here and below in the order of :func:`_used`."""
     lines = text.count(b"\n") + (not text.endswith(b"\n") and bool(text))
-    if len(text) > KERNEL_FROM:
-        from floorplan_core.readers.plain_numbers import parse_numbers  # compiled: only for what is worth it
-
-        rows = parse_numbers(text, lines, layout.columns)
-        if rows is not None:
-            return rows
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
             values = np.fromstring(text, dtype=np.float64, sep=" ")
         except (ValueError, DeprecationWarning):
             return None
-    return values.reshape(lines, layout.columns) if len(values) == lines * layout.columns else None
+    if len(values) != lines * layout.columns:
+        return None
+    return values.reshape(lines, layout.columns)[:, _used(layout)]
 
 
 def _parse_columns(text: bytes, layout: TextLayout) -> Float | None:
-    used = _used(layout)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            columns = np.loadtxt(io.StringIO(text.decode("latin-1")), usecols=used, ndmin=2)
+            return np.loadtxt(io.StringIO(text.decode("latin-1")), usecols=_used(layout), ndmin=2)
         except (ValueError, UserWarning):  # a line that is no point, or no line at all
             return None
-    rows = _no_rows(layout, len(columns))
-    rows[:, used] = columns
-    return rows
 
 
 def _used(layout: TextLayout) -> list[int]:
@@ -165,20 +169,14 @@ def _parse_lines(text: bytes, layout: TextLayout) -> RawChunk:
             values.append([float(words[c]) for c in used])
         except (IndexError, ValueError):
             dropped += 1
-    rows = _no_rows(layout, len(values))
-    if values:
-        rows[:, used] = values
-    return _rows_to_chunk(rows, layout, dropped)
-
-
-def _no_rows(layout: TextLayout, count: int = 0) -> Float:
-    return np.full((count, layout.columns), np.nan)
+    return _rows_to_chunk(np.array(values).reshape(-1, len(used)), layout, dropped)
 
 
 def _rows_to_chunk(rows: Float, layout: TextLayout, dropped: int = 0) -> RawChunk:
-    ids = None if layout.scan_id is None else as_scan_id(rows[:, layout.scan_id])
-    stamps = None if layout.stamp is None else rows[:, layout.stamp].copy()
-    return RawChunk(rows[:, layout.xyz], ids, stamps, dropped=dropped)
+    """``rows`` hold the used columns only."""
+    ids = None if layout.scan_id is None else as_scan_id(rows[:, 3])
+    stamps = None if layout.stamp is None else rows[:, -1].copy()
+    return RawChunk(np.ascontiguousarray(rows[:, :3]), ids, stamps, dropped=dropped)
 
 
 def _line_blocks(path: Path, offset: int, end: int | None) -> Iterator[bytes]:
