@@ -47,7 +47,8 @@ MAX_BYTES = 8 << 30  # of text, so that a bomb in gzip's clothes ends
 MAX_BEAMS = 100_000
 CHUNK_SCANS = 256
 SAMPLE_SCANS = 256
-CHECK_LINES = 10_000  # between looks at whether the user gave up
+KINDS = (b"FLASER", b"ROBOTLASER1")  # messages that are scans with poses
+BLOCK_BYTES = 1 << 20  # that are unpacked at a time
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class LogSummary:
     poses: Any  # (S, 3) x, y, theta
     seconds: Any  # (S,)
     longest: float  # metres: readings as long had no return
-    readings: int
+    good: bytes  # of each line of that kind: 1 where it is a scan
     damaged: int  # lines of that kind that are no scans
 
 
@@ -120,25 +121,28 @@ class CarmenReader:
 
 def summarise(path: Path, observer: Observer) -> LogSummary:
     """One pass: how many scans of which kind, their poses, and what stands for "no return"."""
-    kinds = Counter(line.split(None, 1)[0] for line in _scan_lines(path, None, observer))
-    if not kinds:
+    kinds: Counter[bytes] = Counter()
+    for lines in _blocks(path, observer):
+        kinds.update({kind: lines.count(b"\n" + kind + b" ") for kind in KINDS})
+    if not any(kinds.values()):
         raise InputError(
             f"{path.name} is a CARMEN log without scans that have poses (FLASER or ROBOTLASER1 messages)."
         )
     kind = max(sorted(kinds), key=lambda k: kinds[k])
-    poses, seconds, longest, readings, bad = [], [], 0.0, 0, 0
+    poses, seconds, good, longest, readings = [], [], bytearray(), 0.0, 0
     for line in _scan_lines(path, kind, observer):
         scan = parse_scan(line)
+        good.append(scan is not None)
         if scan is None:
-            bad += 1
             continue
         poses.append(scan.pose)
         seconds.append(scan.seconds)
         readings += len(scan.ranges)
         longest = max(longest, float(scan.ranges.max(initial=0.0, where=np.isfinite(scan.ranges))))
+    bad = good.count(False)
     if not poses or readings == 0:
         raise InputError(f"None of the {bad:,} scans of {path.name} can be read; the log is damaged.")
-    return LogSummary(kind, np.array(poses), np.array(seconds), longest, readings, bad)
+    return LogSummary(kind, np.array(poses), np.array(seconds), longest, bytes(good), bad)
 
 
 def parse_scan(line: bytes) -> Scan | None:
@@ -185,12 +189,10 @@ def _chunks(path: Path, log: LogSummary, size: int, every: int) -> Iterator[RawC
     """The points of every so-many-th scan, ``size`` scans at a time."""
     rows, parts = [], []
     row = -1
-    for line in _scan_lines(path, log.kind, Observer()):
-        scan = parse_scan(line)
+    for line, good in zip(_scan_lines(path, log.kind, Observer()), log.good, strict=False):
+        row += good
+        scan = parse_scan(line) if good and row % every == 0 else None
         if scan is None:
-            continue
-        row += 1
-        if row % every:
             continue
         parts.append(_points(scan, log.longest))
         rows.append(row)
@@ -228,19 +230,32 @@ def _matrix(pose: Any) -> Any:
     return T
 
 
-def _scan_lines(path: Path, kind: bytes | None, observer: Observer) -> Iterator[bytes]:
-    """Lines that are scans of ``kind``, or of any kind that is readable."""
-    wanted = (b"FLASER ", b"ROBOTLASER1 ") if kind is None else (kind + b" ",)
+def _scan_lines(path: Path, kind: bytes, observer: Observer) -> Iterator[bytes]:
+    """Lines that are scans of ``kind``; what lies between them is passed over at the speed of a search."""
+    wanted = b"\n" + kind + b" "
+    for lines in _blocks(path, observer):
+        at = lines.find(wanted)
+        while at >= 0:
+            end = lines.find(b"\n", at + 1)
+            yield lines[at + 1 : min(end if end >= 0 else len(lines), at + 1 + MAX_LINE)]
+            at = lines.find(wanted, end) if end >= 0 else -1
+
+
+def _blocks(path: Path, observer: Observer) -> Iterator[bytes]:
+    """The log in blocks of whole lines, each of which follows a line end."""
     with _opened(path) as handle, damaged(path.name, "CARMEN log"):
-        total = number = 0
-        while line := handle.readline(MAX_LINE):
-            total, number = total + len(line), number + 1
-            if number % CHECK_LINES == 0:
-                observer.check_cancelled()
+        total, held = 0, b"\n"
+        while data := handle.read(BLOCK_BYTES):
+            observer.check_cancelled()
+            total += len(data)
             if total > MAX_BYTES:
                 raise InputError(f"{path.name} unpacks to more than {MAX_BYTES:,} bytes, which no log does.")
-            if line.startswith(wanted):
-                yield line
+            held += data
+            cut = held.rfind(b"\n")
+            if cut > 0:
+                yield held[:cut]
+            held = held[cut:] if cut > 0 else held[: MAX_LINE + 1]
+        yield held
 
 
 def _opened(path: Path) -> BinaryIO:
