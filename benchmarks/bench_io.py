@@ -22,6 +22,9 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.record import Outcome
+from benchmarks.record import report as keep
+
 SMALL = Path(__file__).resolve().parents[1] / "resources" / "sample_survey"  # warms the kernels up
 BLOCK = 1 << 20  # points that are written and read at a time
 NOISE = 0.005  # m between two visits of one place
@@ -212,6 +215,18 @@ def row(found: dict[str, Any]) -> str:
     )
 
 
+def figures(found: dict[str, Any]) -> dict[str, float]:
+    """What is kept of one format, by name."""
+    out = {}
+    for how in ("plain", "planned"):
+        name = f"{found['format']} {found['all']['planned']['points'] / 1e6:g} M, {how}"
+        out[f"{name}: s CPU"], out[f"{name}: most MB"] = (
+            found["all"][how]["cpu"],
+            found["all"][how]["peak_mb"],
+        )
+    return out
+
+
 def is_one(arguments: list[str], measure: Callable[[Path, str], dict[str, float]]) -> bool:
     """Whether this is the process of one measurement (``run_apart``), whose figures it then tells."""
     if arguments[:1] != ["--one"]:
@@ -236,9 +251,13 @@ def main(arguments: list[str]) -> int:
     print(
         "       points      file   plain reading: CPU, rate, memory    opened and planned: CPU, rate, memory"
     )
+    kept: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as folder:
         for kind in given.formats or FORMATS:
-            print(row(bench(kind, given.points, Path(folder))), flush=True)
+            found = bench(kind, given.points, Path(folder))
+            kept |= figures(found)
+            print(row(found), flush=True)
+    keep("bench_io", Outcome("reading and planning beside plain reading", figures=kept))
     return 0
 
 
