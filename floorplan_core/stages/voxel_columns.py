@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import VoxelConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import LEVEL, LEVELS, hit_columns
+from floorplan_core.geometry.columns import LEVEL, LEVELS, count_bits, height_mask, hit_columns
 from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
@@ -25,6 +25,9 @@ Float = NDArray[np.float64]
 _SAMPLE = 200_000  # surfels from which the extent is taken
 _WORTH = 200_000  # surfels of which a second thread takes half
 _MARGIN = 1.0  # m of empty cells around the data
+_STANDING = height_mask(0.3, 2.0)  # where a wall is full, and a scan of furniture seldom
+_FULL = 0.9  # of it that was hit
+_WALL = 2  # cells to the face on each side: walls up to 0.3 m, where they lie badly
 LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
 
 
@@ -105,7 +108,21 @@ def _solid(surface: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 def _free_between_floor_and_ceiling(surface: NDArray[np.uint64], frame: ManhattanFrame) -> NDArray[np.uint64]:
     top = LEVELS - 1 if frame.ceiling_z is None else round((frame.ceiling_z - frame.floor_z) / LEVEL)
-    return np.asarray(_fill_columns(surface, min(max(top, 3), LEVELS - 1)))
+    free = np.asarray(_fill_columns(surface, min(max(top, 3), LEVELS - 1)))
+    return np.where(_inside_walls(surface), np.uint64(0), free)
+
+
+def _inside_walls(surface: NDArray[np.uint64]) -> NDArray[np.bool_]:
+    """(ny, nx) True between two faces that stand from floor to head: a model of solids has both of a wall."""
+    full = count_bits(surface & _STANDING) >= _FULL * count_bits(np.array([_STANDING]))
+    inside = np.zeros_like(full)
+    for faces, out in ((full, inside), (full.T, inside.T)):
+        before, behind = np.zeros_like(faces), np.zeros_like(faces)
+        for step in range(1, _WALL + 1):
+            before[:, step:] |= faces[:, :-step]
+            behind[:, :-step] |= faces[:, step:]
+        out |= before & behind
+    return inside
 
 
 @njit(cache=True, nogil=True)

@@ -85,18 +85,25 @@ def test_spherical_scans_of_an_e57(seen, tmp_path):
     assert_same(e57, ply, MILLIMETRE)
 
 
-def box_mesh() -> trimesh.Trimesh:
-    """What a reconstruction has of the flat: its surfaces without the outside of walls and slabs."""
-    solids = [(np.array(box[:3]), np.array(box[3:])) for box in BOXES]
+SOLIDS = [(np.array(box[:3]), np.array(box[3:])) for box in BOXES]
+
+
+def solid_mesh() -> trimesh.Trimesh:
+    """What a modeller has of the flat: every wall and slab a closed box, its outside too."""
     parts = [
         trimesh.creation.box(bounds=(low, high)).subdivide_to_size(0.3)
-        for low, high in solids
+        for low, high in SOLIDS
         if (high > low).all()
     ]
-    mesh = trimesh.util.concatenate(parts)
+    return trimesh.util.concatenate(parts)
+
+
+def box_mesh() -> trimesh.Trimesh:
+    """What a reconstruction has of the flat: its surfaces without the outside of walls and slabs."""
+    mesh = solid_mesh()
     before = mesh.triangles_center + 0.02 * mesh.face_normals  # where one stands to see it
     inside = (before > (0, 0, 0)).all(axis=1) & (before < (8.1, 5.0, HEIGHT)).all(axis=1)
-    for low, high in solids:
+    for low, high in SOLIDS:
         inside &= ~((before > low) & (before < high)).all(axis=1)
     return mesh.submesh([np.flatnonzero(inside)], append=True)
 
@@ -111,6 +118,11 @@ def from_mesh(tmp_path_factory):
 @pytest.mark.parametrize("kind", [k for k in KINDS if k != "ply"])
 def test_meshes(from_mesh, kind):
     assert_same(from_mesh[kind], from_mesh["ply"], MILLIMETRE)
+
+
+@pytest.mark.parametrize("kind", ["obj", "stl"])
+def test_the_inner_faces_of_closed_solids_bound_the_rooms(tmp_path, kind):
+    plan_of(write_mesh(tmp_path / f"a.{kind}", solid_mesh()))
 
 
 def camera_walk() -> np.ndarray:
