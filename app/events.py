@@ -21,6 +21,11 @@ class Event:
         if listener in self._listeners:
             self._listeners.remove(listener)
 
+    @property
+    def is_heard(self) -> bool:
+        """True where somebody listens."""
+        return bool(self._listeners)
+
     def emit(self, *values: object) -> None:
         """Call every listener with ``values``."""
         for listener in tuple(self._listeners):

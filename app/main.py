@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import logging
 import os
 import sys
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
 SWITCH = 0.0001  # s after which a thread that computes is asked to let the window have the interpreter
 SCRIPT_SIZE = (1440, 900)  # pixels of the window that a script sees
+PATIENCE = 0.5  # s for modules that are still being imported when the window is gone
 LAST_WAIT = 60.0  # s for a thread that is compiling or reading; nobody sees it, the window is gone
 
 
@@ -57,15 +59,31 @@ def run(survey: Path | None = None, script: Path | None = None) -> int:
     if survey is not None:
         window.workbench.try_run("file.open", path=survey)
     status = int(app.exec())
-    _let_end(warming, window)
+    if not _let_end(warming, window, PATIENCE):
+        _leave(status)
     return status
 
 
-def _let_end(warming: WarmUp, window: MainWindow) -> None:
-    """Threads of ours end before the interpreter does: one that is torn off aborts the program."""
-    warming.stop()
+def _let_end(warming: WarmUp, window: MainWindow, seconds: float = LAST_WAIT) -> bool:
+    """Threads of ours end before the interpreter does: one that is torn off aborts the program.
+
+    False where modules are still being imported after ``seconds``.
+    """
+    loaded = warming.stop(seconds)
     window.workbench.planner.close()
     window.workbench.jobs.wait(LAST_WAIT)
+    return loaded
+
+
+def _leave(status: int) -> None:
+    """End here and now: a thread that imports modules cannot be told to stop, and has nothing to save.
+
+    On a loaded machine the imports of a first start took 10 s after the window was gone.
+    """
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def make_application():  # type: ignore[no-untyped-def]
@@ -115,7 +133,6 @@ def _settings(unattended: bool):  # type: ignore[no-untyped-def]
 
     if not unattended:
         return QSettings()
-    import atexit
     import shutil
     import tempfile
 

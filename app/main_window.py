@@ -362,6 +362,7 @@ class MainWindow(QMainWindow):
         look = self.workbench.view.look
         self._settings.setValue("window/geometry", self.saveGeometry())
         self._keep_arrangement(look.workspace)
+        self._settings.sync()
 
 
 def _picture_format(path: Path) -> str:

@@ -36,11 +36,12 @@ class WarmUp:
         """Begin."""
         self._thread.start()
 
-    def stop(self) -> None:
-        """Begin nothing more, and wait for what was begun."""
+    def stop(self, seconds: float = LAST_WAIT) -> bool:
+        """Begin nothing more, and wait for what was begun; False where it goes on after ``seconds``."""
         self._stopped.set()
         if self._thread.is_alive():
-            self._thread.join(LAST_WAIT)
+            self._thread.join(seconds)
+        return not self._thread.is_alive()
 
     def _run(self) -> None:
         step_behind()

@@ -234,10 +234,12 @@ class Workbench:
         self.document.reset(state, text, saved)
         for note in loaded.notes:
             self.ui.tell(note, "warning")
+        survey = state.survey.path if state.survey is not None else None
         for missing in loaded.missing:
-            self.ui.tell(f"{missing.name} is not where it was; say where it lies now.", "warning")
-        if state.survey is not None and state.survey.path in loaded.missing:
-            self.input_missing.emit(state.survey.path)
+            if missing != survey or not self.input_missing.is_heard:  # else it is asked for, which says it
+                self.ui.tell(f"{missing.name} is not where it was; say where it lies now.", "warning")
+        if survey in loaded.missing:
+            self.input_missing.emit(survey)
 
     def save_project(self, path: Path) -> None:
         """Save the document; whole or not at all."""
@@ -380,6 +382,7 @@ class Workbench:
 
     def _close_survey(self) -> None:
         self.jobs.cancel()
+        self.planner.forget()
         self.session, self.plan, self.storeys, self.warnings = None, None, (), ()
         self._whole, self.moment, self._replayed = None, None, {}
         self._show_timeline()

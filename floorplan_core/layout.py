@@ -40,7 +40,7 @@ from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest
-from floorplan_core.stages.stairs import find_flights, openings
+from floorplan_core.stages.stairs import apart_from_stairs, find_flights, openings
 from floorplan_core.stages.wall_lines import bridge_lines
 from floorplan_core.steps import StageRunner
 
@@ -97,12 +97,15 @@ def lay_out(
         lambda: find_openings(seen, evidence, around, config.doors),
         *(seen, evidence, around, config.doors),
     )
+    flights = stage.correct("stairs", lambda: find_flights(evidence), evidence)
+    doors = (*doors, *openings(flights, doors))
     doors, planes, remarks = stage.correct(
         "doors",
         lambda: _corrected_doors(doors, planes, machine, say.doors, evidence, config.doors),
         *(doors, planes, machine, say.doors, evidence, config.doors),
     )
     said += remarks
+    doors, feet, flights = apart_from_stairs(doors, flights)
     planes = stage.correct("stubs", lambda: close_beside_doors(planes, doors), planes, doors)
     grid = stage(
         "occupancy",
@@ -124,8 +127,7 @@ def lay_out(
         lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
         *(cover, config.cover, *layout),
     )
-    flights = stage.correct("stairs", lambda: find_flights(evidence), evidence)
-    doors = (*doors, *openings(flights, doors))
+    doors = (*doors, *feet)
     found = (planes, segments, doors, grid)
     regions = stage(
         "regions",

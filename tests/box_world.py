@@ -6,7 +6,7 @@ turns, tilts and shifts them into a world of one's choice.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +15,7 @@ import numpy as np
 from floorplan_core.config import Config
 from floorplan_core.errors import FloorPlanError
 from floorplan_core.model import FloorPlan, PointChunk, Reconstruction, Trajectory
+from floorplan_core.model.corrections import Correction
 from floorplan_core.observer import Observer
 from floorplan_core.pipeline import FloorPlanner
 
@@ -185,8 +186,16 @@ class Run:
         return next(result for name, result in self.steps if name == stage)
 
 
-def run(given: Survey, config: Config | None = None, trajectory: bool = True) -> Run:
-    """Everything that the stages make of a survey; by default in the axes of its world, as the boxes are."""
+def run(
+    given: Survey,
+    config: Config | None = None,
+    trajectory: bool = True,
+    corrected: Callable[[FloorPlan], Sequence[Correction]] = lambda plan: (),
+) -> Run:
+    """Everything that the stages make of a survey; by default in the axes of its world, as the boxes are.
+
+    :param corrected: what somebody says of the plan, which is made again then.
+    """
     recorder = Recorder()
     config = config or Config().with_values({"voxels.own_axes": "false"})
     planner = FloorPlanner(config, recorder, "boxes")
@@ -194,6 +203,8 @@ def run(given: Survey, config: Config | None = None, trajectory: bool = True) ->
     for chunk in data.chunks():
         planner.integrate_chunk(chunk, data.trajectory)
     try:
-        return Run(recorder.made, planner.plan(), None)
+        plan = planner.plan()
+        said = corrected(plan)
+        return Run(recorder.made, planner.plan(corrections=said) if said else plan, None)
     except FloorPlanError as error:
         return Run(recorder.made, None, error)

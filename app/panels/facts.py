@@ -109,9 +109,7 @@ def _plan(plan: FloorPlan, units: str, words: Words) -> Portrait:
             ),
             Fact(words("Seen"), f"{area(seen, units)} · {percent(seen / total if total else None)}"),
             Fact(words("Predicted"), area(total - seen, units), words("Free space that was not seen")),
-            Fact(
-                words("Regions"), words("{n}, of them {rooms} rooms").format(n=len(plan.regions), rooms=rooms)
-            ),
+            Fact(words("Regions"), _regions(len(plan.regions), rooms, words)),
             Fact(words("Doors"), str(len(plan.doors))),
         ),
     )
@@ -143,6 +141,13 @@ def _plan(plan: FloorPlan, units: str, words: Words) -> Portrait:
         ),
     )
     return Portrait(words("Floor plan"), plan.source, (), (what, frame, made))
+
+
+def _regions(count: int, rooms: int, words: Words) -> str:
+    if count < 2:
+        return str(count)
+    text = words("{n}, of them 1 room") if rooms == 1 else words("{n}, of them {rooms} rooms")
+    return text.format(n=count, rooms=rooms)
 
 
 def _region(plan: FloorPlan, region: Region, units: str, words: Words) -> Portrait:

@@ -74,6 +74,9 @@ class Planner(Protocol):
     ) -> None:
         """Plan a run again, every ``every`` seconds of it."""
 
+    def forget(self) -> None:
+        """The survey was closed: what was given up need not come to an end before another is opened."""
+
     def start(self) -> None:
         """Get ready for the first survey; may be left out."""
 
@@ -109,6 +112,9 @@ class LocalPlanner:
         """See :class:`Planner`."""
         for snapshot in snapshots(session.reconstruction, config, every, observer, shown):
             each(snapshot)
+
+    def forget(self) -> None:
+        """Nothing is kept."""
 
     def start(self) -> None:
         """Nothing is needed."""

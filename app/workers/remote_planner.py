@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 import multiprocessing
 import threading
+import time
 import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -33,6 +34,8 @@ from floorplan_core.observer import Observer
 from floorplan_core.session import Names, reads_alike
 
 LOOK_EVERY = 0.02  # s between two looks whether the user gave up, while nothing is told
+PATIENCE = 0.5  # s from giving up to the end of a process that does not hear it: a new one needs about that
+OPENING = ("open", "read")  # requests that leave nothing worth keeping when they are given up
 LAST_WAIT = 5.0  # s for a process that was ended; the system needs milliseconds
 
 
@@ -54,6 +57,7 @@ class RemotePlanner:
         self._asking = threading.Lock()
         self._numbers = itertools.count(1)
         self._dropped: list[int] = []  # sessions that nobody holds any more
+        self._forgotten = threading.Event()  # no session is needed any more
 
     # ---- the process ------------------------------------------------------------------------------------
 
@@ -66,9 +70,7 @@ class RemotePlanner:
         with self._starting:
             life, self._life = self._life, None
         if life is not None:
-            life.ended.set()
-            life.process.terminate()
-            life.process.join(LAST_WAIT)
+            _end(life)
 
     def lives(self, life: _Life) -> bool:
         """True where ``life`` is the run of the process that answers now."""
@@ -91,6 +93,7 @@ class RemotePlanner:
         self, path: Path, trajectory: Path | None, config: Config, names: Names, observer: Observer
     ) -> RemoteSession:
         """See :class:`~floorcast_app.workers.planner.Planner`."""
+        self._forgotten.clear()
         number, life = next(self._numbers), self._alive()
         asked = (Path(path).absolute(), trajectory and Path(trajectory).absolute(), config, names)
         try:
@@ -102,6 +105,10 @@ class RemotePlanner:
         session.ready_after_opening, session.names = ready, known
         weakref.finalize(session, self._dropped.append, number)
         return session
+
+    def forget(self) -> None:
+        """See :class:`~floorcast_app.workers.planner.Planner`."""
+        self._forgotten.set()
 
     def read(self, session: Session, store: PointStore, observer: Observer) -> None:
         """See :class:`~floorcast_app.workers.planner.Planner`."""
@@ -130,17 +137,29 @@ class RemotePlanner:
         observer: Observer,
         take: Callable[..., None] | None = None,
     ) -> Any:
-        """The answer to a request; meanwhile ``take`` gets the points or moments that come."""
+        """The answer to a request; meanwhile ``take`` gets the points or moments that come.
+
+        A step that was given up and does not end soon (a kernel that is compiled, a library that decodes) is
+        ended with its process where no session is lost by it, and another process is started.
+        """
+
+        def overdue() -> None:
+            if method in OPENING or self._forgotten.is_set():
+                _end(life)
+
         with self._asking:
             dropped, self._dropped[:] = list(self._dropped), []
+            answer = _Answer(life.connection, observer, take, overdue)
             try:
                 wire.send(life.connection, (method, number, arguments, dropped))
-                return _Answer(life.connection, observer, take).wait()
+                return answer.wait()
             except (EOFError, OSError) as error:
                 by_us = life.ended.is_set()
                 life.ended.set()
                 if by_us:
-                    raise Cancelled("The window was closed.") from error
+                    if self._life is life:  # else the window was closed
+                        self._alive()
+                    raise answer.trouble or Cancelled("Cancelled.") from error
                 raise FloorPlanError(_epitaph(life.process)) from error
 
 
@@ -211,11 +230,18 @@ class RemoteSession:
 class _Answer:
     """Waits for the end of a request, and hands on what is told meanwhile."""
 
-    def __init__(self, connection: Connection, observer: Observer, take: Callable[..., None] | None) -> None:
+    def __init__(
+        self,
+        connection: Connection,
+        observer: Observer,
+        take: Callable[..., None] | None,
+        overdue: Callable[[], None],
+    ) -> None:
+        """:param overdue: called again and again where the answer is late after giving up."""
         self._connection, self._observer = connection, observer
-        self._take = take
-        self._gave_up = False
-        self._trouble: BaseException | None = None  # of our own, while we took something in
+        self._take, self._overdue = take, overdue
+        self._gave_up: float | None = None  # when
+        self.trouble: BaseException | None = None  # of our own, while we took something in
 
     def wait(self) -> Any:
         """The result; what failed there is raised here."""
@@ -225,21 +251,23 @@ class _Answer:
             kind, *told = wire.receive(self._connection)
             self._look()
             if kind == "done":
-                if self._trouble is not None:
-                    raise self._trouble
+                if self.trouble is not None:
+                    raise self.trouble
                 return told[0]
             if kind == "failed":
-                raise self._trouble or _raised(*told)
+                raise self.trouble or _raised(*told)
             self._hear(kind, told)
 
     def _look(self) -> None:
         if self._observer.cancel.cancelled:
             self._give_up()
+        if self._gave_up is not None and time.monotonic() - self._gave_up > PATIENCE:
+            self._overdue()
 
     def _give_up(self) -> None:
         """Tell it once; the answer is waited for nevertheless: the next request wants a silent pipe."""
-        if not self._gave_up:
-            self._gave_up = True
+        if self._gave_up is None:
+            self._gave_up = time.monotonic()
             wire.send(self._connection, CANCEL)
 
     def _hear(self, kind: str, told: list[Any]) -> None:
@@ -249,15 +277,22 @@ class _Answer:
             "finished": self._observer.stage_finished,
             "warning": self._observer.warning,
         }
-        if self._trouble is not None or kind not in {*hearers, "points", "moment"}:
+        if self.trouble is not None or kind not in {*hearers, "points", "moment"}:
             return
         try:
             taker = hearers.get(kind, self._take)
-            if taker is not None and not (self._gave_up and kind in {"points", "moment"}):
+            if taker is not None and not (self._gave_up is not None and kind in {"points", "moment"}):
                 taker(*told)
         except Exception as error:  # noqa: BLE001 (the answer is waited for first, then it is raised)
-            self._trouble = error
+            self.trouble = error
             self._give_up()
+
+
+def _end(life: _Life) -> None:
+    """End the process, in the middle of whatever it does."""
+    life.ended.set()
+    life.process.kill()
+    life.process.join(LAST_WAIT)
 
 
 def _raised(name: str, text: str) -> BaseException:

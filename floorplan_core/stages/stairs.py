@@ -89,6 +89,22 @@ def openings(flights: Sequence[Flight], doors: Sequence[Door]) -> tuple[Door, ..
     )  # fmt: skip
 
 
+def apart_from_stairs(
+    doors: Sequence[Door], flights: Sequence[Flight]
+) -> tuple[tuple[Door, ...], tuple[Door, ...], tuple[Flight, ...]]:
+    """The other doors, the openings of flights, and the flights that have theirs: who rejects an opening
+    says that its flight is a part of the hall.
+    """
+    feet = tuple(d for d in doors if _EVIDENCE[0] in d.evidence)
+    left = tuple(f for f in flights if any(_is_foot(d, f) for d in feet))
+    return tuple(d for d in doors if d not in feet), feet, left
+
+
+def _is_foot(door: Door, flight: Flight) -> bool:
+    low, high = _across(flight)
+    return door.axis == flight.axis and door.offset == flight.foot and door.start < high and low < door.end
+
+
 def part_flights(polygon: Any, flights: Sequence[Flight], doors: Sequence[Door]) -> list[Any]:
     """The polygon without the flights in it, largest first, and each flight as a polygon of its own.
 
@@ -98,7 +114,7 @@ def part_flights(polygon: Any, flights: Sequence[Flight], doors: Sequence[Door])
     boxes = [shapely.box(*flight.bounds) for flight in flights]
     if not boxes or shapely.intersection(shapely.union_all(boxes), polygon).area > _MOST * polygon.area:
         return [polygon]
-    lines = [shapely.LineString(door.line()) for door in doors if door.evidence != _EVIDENCE]
+    lines = [shapely.LineString(door.line()) for door in doors if _EVIDENCE[0] not in door.evidence]
     if sum(line.distance(polygon) < _BY for line in lines) < _LEADS_ON:
         return [polygon]
     for flight in flights:

@@ -3376,10 +3376,6 @@
    <translation>Die von {0} verschobene Wand ist nicht mehr da.</translation>
   </message>
   <message>
-   <source>The window was closed.</source>
-   <translation>Das Fenster wurde geschlossen.</translation>
-  </message>
-  <message>
    <source>The {0} {1} is {2}, not a file.</source>
    <translation>Die {0} {1} ist {2}, keine Datei.</translation>
   </message>
@@ -5358,6 +5354,10 @@
   <message>
    <source>{n} of {total}</source>
    <translation>{n} von {total}</translation>
+  </message>
+  <message>
+   <source>{n}, of them 1 room</source>
+   <translation>{n}, davon 1 Raum</translation>
   </message>
   <message>
    <source>{n}, of them {rooms} rooms</source>

@@ -62,3 +62,15 @@ def test_a_survey_that_moved_is_found_again(site, tmp_path):
     names = [r.name for r in bench.plan.regions]
     assert "Lobby" in names
     assert geojson_text(bench.plan).replace('"archive"', '"survey"') == plan
+
+
+def test_a_survey_that_moved_is_told_once(site, tmp_path):
+    """Where a banner asks for it, no toast says the same."""
+    folder, _, _ = site
+    (folder / "survey").rename(tmp_path / "elsewhere")
+    bench, asked = make_workbench(), []
+    bench.input_missing.connect(asked.append)
+    bench.open_project(folder / "house.floorcast")
+    assert asked == [folder / "survey"]
+    assert not any("not where it was" in text for _, text in bench.ui.told)
+    bench.cancel()

@@ -111,7 +111,7 @@ def test_stopped_before_it_begins_it_starts_nothing() -> None:
 
     planner = Watched()
     warming = WarmUp(planner)
-    warming.stop()
+    assert warming.stop()
     warming.start()
     warming._thread.join(60)
     assert not warming._thread.is_alive() and not planner.started.is_set()

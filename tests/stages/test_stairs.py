@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
 
 from floorplan_core.geometry.columns import height_mask
-from floorplan_core.model import Door
+from floorplan_core.model import Door, FloorPlan
+from floorplan_core.model import corrections as c
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.stairs import Flight, find_flights, openings, part_flights
+from floorplan_core.stages.stairs import Flight, apart_from_stairs, find_flights, openings, part_flights
 from tests.box_world import EYE, HEIGHT, LINTEL, Box, room, run, stations, survey, wall
 from tests.drawn_cells import seen_free
+from tests.sessions import local
 
 RISER, TREAD, STEPS = 0.18, 0.27, 12
 FOOT = 1.0  # m, where the flight begins along y
@@ -88,13 +92,21 @@ def test_an_opening_lies_at_the_foot():
     assert opening.kind == "opening" and opening.evidence == ("stairs",)
 
 
-def test_the_stairs_of_a_hall_are_a_region_that_an_opening_joins_to_it():
-    """The hall has two rooms beside it."""
+def hall_with_stairs() -> tuple[list[Box], list[tuple[float, float, float]]]:
+    """Boxes and stations: the hall has two rooms beside it."""
     ways = wall(0, 5.0, 5.1, 0.0, 6.0, (0.5, 1.4, LINTEL), (4.0, 4.9, LINTEL))
     across = wall(1, 2.9, 3.0, 5.1, 8.0)
     boxes = [*room(8, 6), *ways, *across, *steps(0.0, 1.0)]
     places = [(2.0 + x, y, z) for x, y, z in stations(3, 6)] + [(6.5, 1.0, EYE), (6.5, 4.4, EYE)]
-    found = run(survey(boxes, places, rays=(400, 160)))
+    return boxes, places
+
+
+def opening_of(plan: FloorPlan) -> list[Door]:
+    return [door for door in plan.doors if "stairs" in door.evidence]
+
+
+def test_the_stairs_of_a_hall_are_a_region_that_an_opening_joins_to_it():
+    found = run(survey(*hall_with_stairs(), rays=(400, 160)))
     assert found.plan is not None
     (opening,) = (door for door in found.plan.doors if door.evidence == ("stairs",))
     regions = {r.id: r for r in found.plan.regions}
@@ -103,3 +115,28 @@ def test_the_stairs_of_a_hall_are_a_region_that_an_opening_joins_to_it():
     assert shapely.intersection(stairs.polygon, shapely.box(0, FOOT, 1, 6)).area > 0.85 * stairs.area
     assert 2.5 < stairs.area < 6 - FOOT
     assert hall.area + stairs.area == pytest.approx(5 * 6, abs=0.8)
+
+
+@pytest.mark.parametrize("said", ["rejected", "accepted"])
+def test_an_opening_of_stairs_is_rejected_with_its_flight_or_accepted_as_any_door_is(said):
+    def corrected(plan: FloorPlan) -> list[c.Correction]:
+        assert len(plan.regions) == 4
+        at = local(plan, *opening_of(plan)[0].line().mean(axis=0))
+        return [c.RejectDoor(at) if said == "rejected" else c.AcceptDoor(at)]
+
+    plan = run(survey(*hall_with_stairs(), rays=(400, 160)), corrected=corrected).plan
+    assert plan is not None and plan.warnings == ()
+    if said == "rejected":
+        assert len(plan.regions) == 3 and opening_of(plan) == []
+    else:
+        assert len(plan.regions) == 4
+        assert [(d.by_hand, d.confidence) for d in opening_of(plan)] == [("accepted", 1.0)]
+
+
+def test_doors_are_told_from_the_openings_of_flights():
+    flight = Flight(0, -1, (1.0, 2.0, 4.0, 3.0))
+    door, opening = DOORS[0], openings([flight], DOORS)[0]
+    assert apart_from_stairs([door, opening], [flight]) == ((door,), (opening,), (flight,))
+    assert apart_from_stairs([door], [flight]) == ((door,), (), ())
+    elsewhere = replace(opening, start=3.5, end=4.0)
+    assert apart_from_stairs([elsewhere], [flight]) == ((), (elsewhere,), ())

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QToolButton
 from pytestqt.qtbot import QtBot
 
-from floorcast_app.panels.facts import EVIDENCE, Fact, portrait
+from floorcast_app.panels.facts import EVIDENCE, Fact, _regions, portrait
 from floorcast_app.panels.properties_panel import Link, PropertiesPanel
 from floorcast_app.selection import Item
 from floorcast_app.workbench import Workbench
@@ -140,3 +140,8 @@ def test_a_correction_is_one_click_and_says_what_the_machine_said(
     values = _values(workbench, workbench.selection.item)
     assert values["By hand"] == "Accepted by hand"
     assert f"{door.width:.3f} m wide" in values["Machine had said"]
+
+
+def test_rooms_are_counted_in_words_that_fit() -> None:
+    said = [_regions(count, rooms, str) for count, rooms in ((1, 1), (2, 1), (12, 11))]
+    assert said == ["1", "2, of them 1 room", "12, of them 11 rooms"]
