@@ -30,8 +30,10 @@ _FOOT, _AS_FREE = (
     0.3,
     0.7,
 )  # m above the floor; share of what is free above a surface that is so below it, too
-_HEAD = 2.0  # m above the floor: what begins higher is a beam or a lintel
-_SPARSE = 0.3  # m of its height seen on average: without viewpoints less of it is no wall
+_BETWEEN = (1.0, 2.0)  # m above the floor: over furniture, under beams
+_SPARSE = (
+    0.3  # m of its height seen on average: without viewpoints so little, and nothing between, is no wall
+)
 LOW = "low"  # the word for what is too short and too low to be told from furniture by itself
 OVER = "looked over"  # the word for what has air behind and above it
 SPARSE = "hardly seen"  # the word for what may be the edges of furniture and of ceiling in one line
@@ -76,9 +78,20 @@ def judge(
     judged = [_judgement(fine, *(int(n) for n in four)) for four in numbers]
     if evidence.viewpoints:
         return judged
-    extent = fine * (patches.row[patches.first[1:] - 1] - patches.row[patches.first[:-1]] + 1)
-    sparse = (patches.area < _SPARSE * extent) & (patches.count((bits & height_mask(0, _HEAD)) != 0) > 0)
+    sparse = _is_sparse(patches, fine)
     return [(False, (SPARSE,)) if no else said for no, said in zip(sparse, judged, strict=True)]
+
+
+def _is_sparse(patches: Patches, fine: float) -> NDArray[np.bool_]:
+    """(K,) True where something low and something high, with nothing between, happen to be in one line.
+
+    Few levels are not enough to say so: of a wall far away a scanner's rings leave few, at all heights.
+    """
+    extent = fine * (patches.row[patches.first[1:] - 1] - patches.row[patches.first[:-1]] + 1)
+    levels = np.bitwise_or.reduceat(patches.bits, patches.first[:-1])
+    between = count_bits(levels & height_mask(*_BETWEEN)) > 1
+    low = 2 * patches.count((patches.bits & height_mask(0, _BETWEEN[0])) != 0) >= patches.lengths
+    return np.asarray((patches.area < _SPARSE * extent) & low & ~between)
 
 
 def _held(bits: NDArray[np.uint64]) -> NDArray[np.uint64]:

@@ -94,6 +94,7 @@ def test_a_ceiling_lower_than_the_rest_makes_no_cabinet_a_wall(top, structure, l
         ((0.3, 0.4), False, False),  # the edge of a desk, and of the ceiling above it
         ((0.3, 1.4), False, True),  # enough of a wall
         ((0.3, 0.4), True, True),  # where it is known what was looked over, that decides
+        ((1.3, 1.4), False, True),  # a ring that a scanner left on a wall far away
         ((2.3, 2.4), False, True),  # a beam, or what was seen of a wall above things
     ],
 )
