@@ -57,9 +57,8 @@ class Stage:
         """What the renderer needs, at ``ratio`` pixels for a pixel of the pane."""
         width, height = (max(round(ratio * n), 1) for n in (subject.width, subject.height))
         scene = self._scene_of(subject)
-        return FrameRequest(
-            subject.look, width, height, scene, subject.cloud, subject.paint, subject.plan is not None
-        )
+        planned = subject.plan is not None
+        return FrameRequest(subject.look, width, height, scene, subject.cloud, subject.paint, planned, ratio)
 
     def _scene_of(self, subject: Subject) -> Scene:
         # all that the scene does not depend on is set to the same value

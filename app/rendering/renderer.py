@@ -23,7 +23,7 @@ from floorcast_app.view_state import Look
 Pixels = NDArray[np.uint32]
 
 KEY_RANGE = float(2**31 - 256)  # of the scaled inverse depth in a key; float32 cannot round it up to 2^31
-MAX_SPLAT = 4  # pixels: larger squares look like confetti
+MAX_SPLAT = 3  # pixels of the pane: larger squares look like confetti, smaller ones like sand
 BLOCK = 1 << 20  # points between two looks at whether the frame is still wanted
 PULL = 0.05  # metres by which surfaces win over points on them
 DEEP = 0.018  # of the span: a step in depth that is shaded by half
@@ -44,6 +44,7 @@ class FrameRequest:
     cloud: Cloud | None = None
     paint: Paint | None = None
     storey: bool = False  # True: a plan tells where floor and ceiling are; points far below are left out
+    ratio: float = 1.0  # pixels of the picture for a pixel of the pane: points and lines are as much wider
 
 
 @dataclass(frozen=True)
@@ -75,16 +76,17 @@ class Renderer:
         ``fine``: drawn at twice the size and averaged, so that edges are smooth.
         """
         factor = 2 if fine else 1
+        wider = max(round(factor * request.ratio), 1)
         width, height = request.width * factor, request.height * factor
         camera = camera_of(request.look, width, height)
         pose = np.column_stack([camera.rotation, -camera.rotation @ camera.eye])
         lens = np.array([camera.focal, width / 2, height / 2, camera.near, camera.near * KEY_RANGE])
         keys = self._cleared(height, width)
-        count = self._points(request, camera, pose, lens, most, keys, stop)
+        count = self._points(request, camera, pose, lens, most, wider, keys, stop)
         if count is None:
             return None
-        image, inverse = self._shaded(request, camera, lens, keys, factor)
-        self._surfaces(request, camera, pose, lens, inverse, image, factor)
+        image, inverse = self._shaded(request, camera, lens, keys, wider)
+        self._surfaces(request, camera, pose, lens, inverse, image, wider)
         if stop():
             return None
         if fine:
@@ -106,6 +108,7 @@ class Renderer:
         pose: NDArray[np.float64],
         lens: NDArray[np.float64],
         most: int | None,
+        wider: int,
         keys: NDArray[np.uint64],
         stop: Callable[[], bool],
     ) -> int | None:
@@ -116,7 +119,7 @@ class Renderer:
 
         count = len(cloud) if most is None else min(most, len(cloud))
         low, high = point_box(request)
-        size = splat_size(cloud, count, camera)
+        size = splat_size(cloud, count, camera, MAX_SPLAT * wider)
         pose32, lens32 = pose.astype(np.float32), lens.astype(np.float32)
         for at in range(0, count, BLOCK):
             if stop():
@@ -131,7 +134,7 @@ class Renderer:
         camera: Camera,
         lens: NDArray[np.float64],
         keys: NDArray[np.uint64],
-        factor: int,
+        wider: int,
     ) -> tuple[Pixels, NDArray[np.float32]]:
         from floorcast_app.rendering import kernels
 
@@ -139,7 +142,7 @@ class Renderer:
         inverse = np.empty(keys.shape, dtype=np.float32)
         strength = np.float32(camera.distance / (DEEP * request.look.span))
         sky = backdrop(len(keys), request.look.theme)
-        kernels.shade(keys, np.float32(1.0 / lens[4]), factor, strength, sky, image, inverse)
+        kernels.shade(keys, np.float32(1.0 / lens[4]), wider, strength, sky, image, inverse)
         return image, inverse
 
     def _surfaces(
@@ -150,20 +153,20 @@ class Renderer:
         lens: NDArray[np.float64],
         inverse: NDArray[np.float32],
         image: Pixels,
-        factor: int,
+        wider: int,
     ) -> None:
         from floorcast_app.rendering import kernels
 
         scene, towards = request.scene, np.float32(1.0 + PULL / camera.distance)
 
         def lines(drawn: Lines, pull: float) -> None:
-            widths = drawn.widths * factor
+            widths = drawn.widths * wider
             kernels.draw_lines(
                 drawn.ends, drawn.colours, drawn.alphas, widths, pose, lens, np.float32(pull), inverse, image
             )
 
         def surfaces(drawn: Surfaces) -> None:
-            arrays = drawn.corners, drawn.colours, drawn.alphas, drawn.hatches * factor
+            arrays = drawn.corners, drawn.colours, drawn.alphas, drawn.hatches * wider
             kernels.fill_triangles(*arrays, pose, lens, towards, inverse, image)
 
         bounds = grid_bounds(request)
@@ -188,9 +191,9 @@ def point_box(request: FrameRequest) -> tuple[NDArray[np.float32], NDArray[np.fl
     return low, high
 
 
-def splat_size(cloud: Cloud, count: int, camera: Camera) -> int:
+def splat_size(cloud: Cloud, count: int, camera: Camera, most: int = MAX_SPLAT) -> int:
     """Pixels on a side of a point so that ``count`` of them just close a surface."""
-    return int(np.clip(round(cloud.spacing(count) * camera.pixels_per_metre), 1, MAX_SPLAT))
+    return int(np.clip(round(cloud.spacing(count) * camera.pixels_per_metre), 1, most))
 
 
 def grid_bounds(request: FrameRequest) -> tuple[float, float, float, float] | None:

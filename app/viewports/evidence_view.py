@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
@@ -175,6 +176,7 @@ class EvidenceView(QWidget):
             painter.restore()
         for track, text in zip(tracks, (tr("Histogram"), tr("Gradient"), tr("Filter")), strict=True):
             paint_label(painter, track, text, c)
+        self._paint_widths(painter, tracks, evidence, c)
         if self._cursor is not None:
             self._paint_cursor(painter, tracks, evidence, c)
 
@@ -200,12 +202,7 @@ class EvidenceView(QWidget):
     ) -> None:
         """Bands over all tracks; the selected and the hovered one outlined."""
         selection = self.workbench.selection
-        for door in evidence.doors:
-            left, right = (track_x(tracks[0], self._shown, v) for v in (door.start, door.end))
-            band = QRectF(left, tracks[0].top(), right - left, tracks[-1].bottom() - tracks[0].top())
-            band = band.intersected(QRectF(LEFT, 0, tracks[0].width(), tracks[-1].bottom()))
-            if band.width() <= 0:
-                continue
+        for door, band in self._bands(tracks, evidence):
             item = Item("door", door.id)
             painter.fillRect(band, colour(c.door, 0.35))
             tone = (
@@ -214,9 +211,25 @@ class EvidenceView(QWidget):
             painter.setPen(pen(tone, 2.0 if tone != c.door else 1.2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(band)
+
+    def _paint_widths(
+        self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours
+    ) -> None:
+        """On the bands, above the curves."""
+        for door, band in self._bands(tracks, evidence):
             text = format.length(door.width, self.workbench.view.look.units)
             if text_size(text, SMALL)[0] + 6 <= band.width():
-                draw_text(painter, text, (band.center().x(), band.top() + 10), SMALL, colour(c.text), 500)
+                at = (band.center().x(), band.top() + 12)
+                draw_text(painter, text, at, SMALL, colour(c.text), 500, halo=colour(c.panel, 0.85))
+
+    def _bands(self, tracks: list[QRectF], evidence: EvidenceLayer) -> Iterator[tuple[Door, QRectF]]:
+        """Where the doors in view lie across all tracks."""
+        for door in evidence.doors:
+            left, right = (track_x(tracks[0], self._shown, v) for v in (door.start, door.end))
+            band = QRectF(left, tracks[0].top(), right - left, tracks[-1].bottom() - tracks[0].top())
+            band = band.intersected(QRectF(LEFT, 0, tracks[0].width(), tracks[-1].bottom()))
+            if band.width() > 0:
+                yield door, band
 
     def _paint_axis(
         self, painter: QPainter, tracks: list[QRectF], evidence: EvidenceLayer, c: Colours

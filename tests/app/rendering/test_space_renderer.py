@@ -10,7 +10,7 @@ import pytest
 from floorcast_app.rendering.camera import camera_of
 from floorcast_app.rendering.cloud import Cloud, Paint
 from floorcast_app.rendering.ramps import packed
-from floorcast_app.rendering.renderer import Frame, FrameRequest, Renderer, backdrop
+from floorcast_app.rendering.renderer import MAX_SPLAT, Frame, FrameRequest, Renderer, backdrop
 from floorcast_app.rendering.scene import Scene, build_scene
 from floorcast_app.selection import Item
 from floorcast_app.view_state import LAYERS, Look
@@ -52,6 +52,21 @@ def test_the_nearer_point_hides_the_farther(order: int) -> None:
     from_below = replace(TOP_VIEW, elevation=-89.0, centre=(0.0, 0.0))
     near = drawn(replace(from_below, azimuth=0.0), points=both)
     assert BLUE in (near.image & 0xFFFFFF)
+
+
+def test_a_point_is_as_wide_in_every_frame() -> None:
+    """While something moves, when it rests, and where the screen has small pixels."""
+    cloud, paint = cloud_of((0.0, 0.0, 0.5))
+    sparse = replace(cloud, density=1.0)
+
+    def width(frame: Frame) -> int:
+        return int((frame.inverse > 0).any(axis=0).sum())
+
+    quick, fine = (drawn(TOP_VIEW, points=(sparse, paint), fine=fine) for fine in (False, True))
+    request = FrameRequest(TOP_VIEW, 2 * SIZE, 2 * SIZE, EMPTY, sparse, paint, ratio=2.0)
+    small = Renderer().render(request)
+    assert small is not None
+    assert (width(quick), width(fine), width(small)) == (MAX_SPLAT, MAX_SPLAT, 2 * MAX_SPLAT)
 
 
 def test_the_depth_of_a_point_is_kept() -> None:
