@@ -42,7 +42,8 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     """All doors and openings under a lintel, by axis, offset and start."""
     leaves = begin(lambda: find_leaves(planes, evidence, config))  # of all kernels here the longest
     lintels = shows_lintels([p.profile for p in planes if p.profile])
-    merged = merge_faces(find_candidates(planes, evidence, config, lintels), planes, config)
+    found = find_candidates(planes, evidence, config, lintels)
+    merged = merge_faces(found, planes, config, evidence.viewpoints)
     judged = [_judged(c, lintels) for c in merged]
     likely = [d for d in judged if d.confidence >= config.min_confidence]
     edged = refine_edges(likely, planes, evidence)
@@ -90,12 +91,13 @@ def _kind(door: Door, config: DoorsConfig) -> Door:
 
 
 def merge_faces(
-    found: Sequence[Candidate], planes: Sequence[LayoutPlane], config: DoorsConfig
+    found: Sequence[Candidate], planes: Sequence[LayoutPlane], config: DoorsConfig, viewpoints: bool = True
 ) -> list[Candidate]:
     """One candidate for the two faces of a wall, and for two planes of one face; the surest come first.
 
     Where its plane was not seen beside it, an aperture is a gap in the line of a wall that stands elsewhere:
-    it only adds to another. Of two in surfaces that look at each other the first stays.
+    it only adds to another. Of two in surfaces that look at each other the first stays; which way they
+    look is a guess without ``viewpoints``.
     """
     named = {p.id: p for p in planes}
     out: list[Candidate] = []
@@ -103,7 +105,7 @@ def merge_faces(
         for k, other in enumerate(out):
             if _same_opening(candidate.door, other.door, config):
                 mine, face = (named[c.door.planes[0]] for c in (candidate, other))
-                if not _look_at_each_other(mine, face):
+                if not (viewpoints and _look_at_each_other(mine, face)):
                     out[k] = _merged(other, candidate, mine.facing != face.facing)
                 break
         else:

@@ -107,6 +107,8 @@ def test_surfaces_that_look_at_each_other_are_no_faces_of_one_wall():
     other = Candidate(replace(ONE.door, planes=("p2",), offset=NEAR - 0.1), ONE.measures)
     (kept,) = merge_faces([ONE, other], turned, DoorsConfig())
     assert (kept.measures.both, kept.door.thickness, len(kept.door.planes)) == (0.0, 0.0, 1)
+    (joined,) = merge_faces([ONE, other], turned, DoorsConfig(), viewpoints=False)  # there it is a guess
+    assert len(joined.door.planes) == 2
 
 
 def test_the_gap_in_the_line_of_a_wall_that_stands_elsewhere_is_none():
