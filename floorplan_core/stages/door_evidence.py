@@ -163,11 +163,11 @@ def measure(
         flanks=flanks[0],
         flank=flanks[1],
         response=min(response, 1.0),
-        onward=float(_goes_on(plane, start, end, alike)),
+        onward=float(goes_on(plane, start, end, alike)),
     )
 
 
-def _goes_on(plane: LayoutPlane, start: float, end: float, alike: Float) -> bool:
+def goes_on(plane: LayoutPlane, start: float, end: float, alike: Float) -> bool:
     """True where the far wall of a room behind the aperture, or of one beside that, was seen."""
     behind = (plane.offset - alike[:, 0]) * plane.facing.sign
     beside = np.minimum(alike[:, 2], end + _ROOM[0]) - np.maximum(alike[:, 1], start - _ROOM[0])

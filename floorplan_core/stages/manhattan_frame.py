@@ -28,6 +28,7 @@ Float = NDArray[np.float64]
 
 _UP_CONE = math.radians(35)  # a floor's normal is this near to the file's up axis
 _PLANAR = 0.4  # of the surfels in patches that are planar: 0.5 to 0.8 where noise is thinner than patches
+_WIDEST = 8.0  # times the usual patch, 2 m: for 8 cm of noise
 _WIDER, _MORE = 2.0, 1.5  # times the usual patch; times as many surfels as it explains: for clutter less
 _ACROSS = 8  # voxels of a voxel map in a patch: two layers of them are a plane there
 _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a floor
@@ -85,10 +86,14 @@ def _patches(surfels: Surfels, config: FrameConfig, voxel: float) -> CellNormals
         across = fit_cell_normals(surfels.centroid, _ACROSS * voxel, config.planarity)
         if across.share > max(_PLANAR, usual.share):
             return across
-    if usual.share > _PLANAR:
-        return usual
-    wider = fit_cell_normals(surfels.centroid, _WIDER * config.cell, config.planarity)
-    return wider if wider.share > _MORE * usual.share else usual
+    best, width = usual, config.cell
+    while best.share <= _PLANAR and width < _WIDEST * config.cell:
+        width *= _WIDER
+        wider = fit_cell_normals(surfels.centroid, width, config.planarity)
+        if wider.share <= _MORE * best.share:
+            break
+        best = wider
+    return best
 
 
 def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) -> ManhattanFrame:

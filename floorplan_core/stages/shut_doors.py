@@ -24,6 +24,8 @@ from floorplan_core.geometry.depth_medians import Faces, median_depths
 from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.blockers import crossing_walls
+from floorplan_core.stages.door_evidence import goes_on
 
 Float = NDArray[np.float64]
 
@@ -74,7 +76,7 @@ def find_leaves(planes: Sequence[LayoutPlane], evidence: Evidence, config: Doors
     unsure = [k for k in range(len(walls)) if set(deep[k]) - set(known[k])]
     for k, shin in zip(unsure, _shins([walls[k] for k in unsure], evidence), strict=True):
         low = np.where(np.isfinite(profiles[k].low), profiles[k].low, shin)
-        sure = recesses(replace(profiles[k], low=low), narrowest, _REACH[1])
+        sure = recesses(replace(profiles[k], low=low), narrowest, inner=True)
         known[k] = sorted({*known[k], *(set(deep[k]) & set(sure))})
     return [_leaf(wall, *span) for wall, spans in zip(walls, known, strict=True) for span in spans]
 
@@ -83,9 +85,11 @@ def _inner_recesses(
     plane: LayoutPlane, profile: DepthProfile, planes: Sequence[LayoutPlane], narrowest: float
 ) -> list[tuple[float, float]]:
     """Recesses in walls that are thicker, whatever was seen near the floor; windows are in outer walls."""
-    found = recesses(replace(profile, low=profile.leaf), narrowest, _REACH[1])
+    found = recesses(replace(profile, low=profile.leaf), narrowest, inner=True)
     behind = [q for q in planes if q.facing == plane.facing.opposite]
-    return [s for s in found if _depth(profile, s) + _BOARD < _thickness(plane, s, behind)]
+    alike = crossing_walls([q for q in planes if q.facing == plane.facing], plane.facing.axis)
+    thick = [_thickness(plane, s, behind) or (_INNER if goes_on(plane, *s, alike) else 0.0) for s in found]
+    return [s for s, t in zip(found, thick, strict=True) if _depth(profile, s) + _BOARD < t]
 
 
 def _depth(profile: DepthProfile, span: tuple[float, float]) -> float:
@@ -158,29 +162,33 @@ def _depths(
     return starts, list(depths)
 
 
-def recesses(
-    profile: DepthProfile, narrowest: float, deepest: float = _DEPTH[1]
-) -> list[tuple[float, float]]:
-    """(start, end) metres along the plane where its face stands back between jambs and under a lintel."""
+def recesses(profile: DepthProfile, narrowest: float, inner: bool = False) -> list[tuple[float, float]]:
+    """(start, end) metres along the plane where its face stands back between jambs and under a lintel.
+
+    :param inner: for an inner wall, where a leaf may be deeper and less of the lintel seen.
+    """
     back = np.nan_to_num(profile.leaf, nan=-1.0) > _DEPTH[0]
     return [
         (profile.start + profile.step * a, profile.start + profile.step * b)
         for a, b in runs_of(back).tolist()
-        if narrowest - profile.step < (b - a) * profile.step <= _WIDEST and _is_leaf(profile, a, b, deepest)
+        if narrowest - profile.step < (b - a) * profile.step <= _WIDEST and _is_leaf(profile, a, b, inner)
     ]
 
 
-def _is_leaf(profile: DepthProfile, a: int, b: int, deepest: float) -> bool:
+def _is_leaf(profile: DepthProfile, a: int, b: int, inner: bool) -> bool:
     """True where the bins from a to b are one flat board in a wall: beside, above, and down to the floor."""
     depth = float(np.median(profile.leaf[a:b]))
-    if depth > deepest or float(np.std(profile.leaf[a + 1 : b - 1])) > _FLAT:
+    if depth > (_REACH[1] if inner else _DEPTH[1]) or float(np.std(profile.leaf[a + 1 : b - 1])) > _FLAT:
         return False
     face = min(_LEVEL, _SHARE * depth)
     flank, jamb = round(_FLANK / profile.step), round(_JAMB / profile.step)
     beside = profile.leaf[max(0, a - flank) : a], profile.leaf[b : b + flank]
     if min(int((np.abs(side) < face).sum()) for side in beside) < jamb:
         return False
-    if float((np.abs(profile.lintel[a:b]) < face).mean()) < _UNDER:
+    above = profile.lintel[a:b]
+    if inner:  # of what was seen there: the beams of a lidar seldom reach so high near by
+        above, face = above[np.isfinite(above)], _LEVEL
+    if not len(above) or float((np.abs(above) < face).mean()) < _UNDER:
         return False
     low = profile.low[a:b][np.isfinite(profile.low[a:b])]
     return len(low) >= _SEEN and float((np.abs(low - depth) < _LEVEL).mean()) > _UPRIGHT

@@ -61,7 +61,7 @@ def test_yaws_at_the_ends_of_the_range(building, yaw):
     assert -math.pi / 4 - 1e-9 <= frame.yaw <= math.pi / 4 + 1e-9
 
 
-@pytest.mark.parametrize("noise", [0.03, 0.04])
+@pytest.mark.parametrize("noise", [0.03, 0.04, 0.06])
 @pytest.mark.parametrize("yaw", [-20, -7, 10, 20, 30])
 def test_noise_as_thick_as_a_patch_is_wide(building, noise, yaw):
     """Hardly a patch of the usual width is planar then, but those that the cells cut askew."""

@@ -126,6 +126,25 @@ def test_in_inner_walls_leaves_may_be_deep_and_hidden_near_the_floor(depth, thic
     assert places == ([pytest.approx((2.0, 2.9), abs=1e-6)] if found else [])
 
 
+@pytest.mark.parametrize(("behind", "found"), [(4.5, True), (9.0, False)])
+def test_where_the_other_face_was_not_seen_the_room_behind_tells_an_inner_wall(behind, found):
+    plane = LayoutPlane("a", Facing.EAST, 4.0, walls=np.array([[1.0, 4.0]]))
+    far = LayoutPlane("b", Facing.EAST, 4.0 - behind, walls=np.array([[1.0, 4.0]]))
+    places = _inner_recesses(plane, profile(0.14), [plane, far], DoorsConfig().min_width)
+    assert len(places) == found
+
+
+@pytest.mark.parametrize("wrong", [0, 3])
+def test_in_inner_walls_what_was_seen_of_the_lintel_is_enough(wrong):
+    above = np.full(60, np.nan)
+    above[25:29] = 0.0
+    above[31 : 31 + 2 * wrong] = 0.1
+    seen = replace(profile(0.1), lintel=above)
+    assert recesses(seen, 0.6) == []
+    assert len(recesses(seen, 0.6, inner=True)) == (wrong == 0)
+    assert recesses(replace(seen, lintel=np.full(60, np.nan)), 0.6, inner=True) == []
+
+
 @pytest.mark.parametrize("both_sides", [True, False])
 def test_a_leaf_behind_low_things_is_told_from_a_window_where_the_wall_is_an_inner_one(both_sides):
     bench = (3.5, START - 0.2, 0.0, 3.95, END + 0.2, 0.32)
