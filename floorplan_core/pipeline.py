@@ -45,6 +45,7 @@ from floorplan_core.stages.corrections_doors import lost_doors
 from floorplan_core.stages.corrections_regions import correct_names
 from floorplan_core.stages.islands import Island, find_islands, is_wide
 from floorplan_core.stages.labels import label_regions
+from floorplan_core.stages.manhattan_frame import misfit
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import connect_doors
 from floorplan_core.stages.storeys import (
@@ -178,7 +179,7 @@ class FloorPlanner:
             source=self.source,
             point_count=int(evidence.count.sum()) if self._is_one_of_many() else self.map.surfels.points,
             config=config,
-            warnings=self._warnings(cover, grid, said),
+            warnings=self._warnings(cover, grid, said, "" if wings else misfit(frame)),
             seconds=stage.seconds,
             storey=storey,
             corrected=by_hand((*planes, *(p for w in wings for p in w.planes)), doors, regions),
@@ -320,9 +321,11 @@ class FloorPlanner:
             )
         return regions
 
-    def _warnings(self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks) -> tuple[str, ...]:
+    def _warnings(
+        self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks, misfits: str
+    ) -> tuple[str, ...]:
         """What the user should know about this plan; told to the observer too."""
-        warnings = list(said.warnings)
+        warnings = [*said.warnings, misfits] if misfits else list(said.warnings)
         if self.map.planar:
             warnings.append(
                 "A planar scan: walls and furniture alike are taken to reach from floor to ceiling."

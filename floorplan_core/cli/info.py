@@ -154,6 +154,8 @@ def _path(found: SurveyInfo) -> str:
 def _manhattan(found: SurveyInfo) -> str:
     if found.frame is None:
         return f"no: {found.no_frame}"
+    from floorplan_core.stages.manhattan_frame import misfit
+
     facts = found.as_dict()["manhattan"]
     other = found.as_dict()["other_direction"]
     wing = (
@@ -164,9 +166,10 @@ def _manhattan(found: SurveyInfo) -> str:
             "a wing, where rooms follow it, is planned in a frame of its own"
         )
     )
+    doubt = misfit(found.frame) if other is None else ""
     return (
         f"{facts['support']:.0%} of {facts['wall_area_m2']:.0f} m2 of wall within 5 degrees of the frame "
-        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}"
+        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}" + (doubt and f"\n{doubt}")
     )
 
 

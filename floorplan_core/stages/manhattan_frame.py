@@ -36,6 +36,7 @@ _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
 _LEVEL_REACHES = (0.3, 0.15, 0.08)  # m around the strongest level: first for a rough up, then for a better
 _ASKEW = math.radians(10)  # from the frame: walls at more are no noise of those that fit
+_POOR = 0.6  # of the walls along the axes: buildings without walls at other angles have 0.7 to 0.98
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
 
@@ -114,6 +115,17 @@ def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) 
     rotation = turned @ rotation
     tilt = math.acos(float(np.clip(rotation[2, 2], -1, 1)))
     return replace(frame, rotation=rotation, yaw=yaw, tilt=tilt)
+
+
+def misfit(frame: ManhattanFrame) -> str:
+    """What a user should know of a frame that many walls do not follow; "" where most do."""
+    if frame.support >= _POOR:
+        return ""
+    return (
+        f"Only {frame.support:.0%} of the wall surface fits the two directions of the plan: round walls and "
+        "walls at other angles come out as steps or are missing (thick noise lowers the share, too); compare "
+        "the planes with the plan, and force another direction with --set frame.yaw_deg=... if it is wrong."
+    )
 
 
 def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig) -> tuple[float, float]:

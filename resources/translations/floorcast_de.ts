@@ -1864,6 +1864,10 @@
    <translation>Nur was gesehen wurde</translation>
   </message>
   <message>
+   <source>Only {0} of the wall surface fits the two directions of the plan: round walls and walls at other angles come out as steps or are missing (thick noise lowers the share, too); compare the planes with the plan, and force another direction with --set frame.yaw_deg=... if it is wrong.</source>
+   <translation>Nur {0} der Wandfläche passen zu den beiden Richtungen des Plans: Runde Wände und solche in anderen Winkeln kommen als Stufen heraus oder fehlen (starkes Rauschen senkt den Anteil ebenfalls); bitte die Ebenen mit dem Plan vergleichen und mit --set frame.yaw_deg=... eine andere Richtung erzwingen, wenn sie falsch ist.</translation>
+  </message>
+  <message>
    <source>Only {0} of the walls lie along two perpendicular directions; this is hardly a Manhattan world.</source>
    <translation>Nur {0} der Wände liegen entlang zweier senkrechter Richtungen; das ist kaum eine Manhattan-Welt.</translation>
   </message>

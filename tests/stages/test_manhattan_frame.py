@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from floorplan_core.config import FrameConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.model import ManhattanFrame
-from floorplan_core.stages.manhattan_frame import estimate_frame
+from floorplan_core.stages.manhattan_frame import estimate_frame, misfit
 from tests.box_world import EYE, HEIGHT, LINTEL, room, rotation, stations, survey, two_rooms
 
 YAW_TOLERANCE = 0.05  # degrees
@@ -39,6 +40,12 @@ def _error(frame: ManhattanFrame, turned: np.ndarray) -> tuple[float, float]:
     yaw = math.degrees(math.atan2(rest[1, 0], rest[0, 0]))
     tilt = math.degrees(math.acos(np.clip(rest[2, 2], -1, 1)))
     return abs((yaw + 45) % 90 - 45), tilt
+
+
+def test_a_frame_that_many_walls_do_not_follow_is_told(building):
+    frame = _frame(building)
+    assert misfit(frame) == ""
+    assert misfit(replace(frame, support=0.41)).startswith("Only 41% of the wall surface")
 
 
 @settings(max_examples=15)
