@@ -39,7 +39,7 @@ from floorplan_core.stages.occupancy import slice_map
 from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
-from floorplan_core.stages.speculation import cover_the_rest
+from floorplan_core.stages.speculation import cover_the_rest, for_site
 from floorplan_core.stages.stairs import apart_from_stairs, find_flights, openings
 from floorplan_core.stages.wall_lines import bridge_lines
 from floorplan_core.steps import StageRunner
@@ -114,9 +114,8 @@ def lay_out(
     )
     walls, paired = blockers(planes, doors), pairable(planes, parts)
     layout = (planes, doors, grid, parts, config.candidates)
-    candidates = stage(
-        "candidates", lambda: pair_planes(paired, walls, grid, config.candidates, observer), *layout
-    )
+    on_site = for_site(config.candidates, grid)
+    candidates = stage("candidates", lambda: pair_planes(paired, walls, grid, on_site, observer), *layout)
     cover = stage(
         "cover",
         lambda: cover_free_space(candidates, grid, config.cover, observer),

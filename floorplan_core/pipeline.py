@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
+from floorplan_core.geometry.columns import STRIP_CELLS
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
 from floorplan_core.layout import lay_out
@@ -66,7 +67,9 @@ if TYPE_CHECKING:
 Float = NDArray[np.float64]
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
 EVIDENCE_SURFEL = 60  # bytes of each surfel in the manhattan frame, where it is in memory
-STAGES_SURFEL, STAGES_COLUMN = 40, 100  # bytes that the stages take for each surfel and each fine column
+EVIDENCE_COLUMN = 12  # bytes of each fine column there, the same
+STAGES_SURFEL, STAGES_COLUMN = 40, 10  # bytes that the stages take for each surfel and each fine column
+STRIP_COLUMN = 100  # and for each column of a strip, while two facings are looked at
 STOREYS_SURFEL = 80  # where storeys have to be told apart, before
 OUTLINE_SURFELS = 20_000  # that the extent of a site is estimated on
 OUTLYING = (0.1, 99.9)  # percentiles of the surfels beyond which a site does not reach
@@ -263,13 +266,17 @@ class FloorPlanner:
         wide, deep = np.ptp(np.percentile(xy, OUTLYING, axis=0), axis=0).tolist()
         columns = min(wide * deep / (size / 2) ** 2, LARGEST)  # a larger site is refused for its size
         what = f"The plan of {wide:.0f} x {deep:.0f} m in voxels of {size:g} m"
-        self._make_room(surfels, STAGES_SURFEL, STAGES_COLUMN * columns, what)
+        fixed = STAGES_COLUMN * columns + STRIP_COLUMN * min(columns, STRIP_CELLS)
+        self._make_room(surfels, STAGES_SURFEL, fixed, what, EVIDENCE_COLUMN * columns)
 
-    def _make_room(self, surfels: SurfelMap, each: float, fixed: float, what: str) -> None:
-        """Surfels go to disk where memory has no place for what is made of them, ``each`` bytes of a surfel
-        and ``fixed`` ones; :class:`NoPlanError` if that is too little."""
+    def _make_room(
+        self, surfels: SurfelMap, each: float, fixed: float, what: str, columns: float = 0.0
+    ) -> None:
+        """Surfels go to disk where memory has no place for what is made of them, ``each`` bytes of a surfel,
+        ``fixed`` ones and those of the ``columns``, which go too; :class:`NoPlanError` if that is too little.
+        """
         needed = each * len(surfels) + fixed
-        if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * len(surfels))):
+        if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * len(surfels) + columns)):
             surfels.leave_memory()
             require_memory(needed, what)
 

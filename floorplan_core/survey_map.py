@@ -22,10 +22,9 @@ from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
 from floorplan_core.geometry.ray_carving import MissMap
-from floorplan_core.geometry.ray_steps import BLOCK
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
-from floorplan_core.memory import free_memory, require_memory
+from floorplan_core.memory import free_memory
 from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
 from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
 
@@ -35,7 +34,7 @@ Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
-_MANY_RAYS, _STEP = 100e6, 1.2  # bytes of ray counts from which free memory is looked at; and how often
+_RAYS = 0.125  # of the same for the ray counts of each of two threads: an eighth of what surfels take
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 PIECE = 50_000  # points at least whose rays a thread follows before it asks for more
@@ -50,14 +49,13 @@ class SurveyMap:
     def __init__(self, config: Config) -> None:
         self._room = _room(config.voxels)
         self.surfels = SurfelMap(config.voxels.size / 2, self._room)
-        self.rays = MissMap(config.voxels.size)
-        self._more_rays = MissMap(config.voxels.size)  # those that the second thread followed
+        self.rays = self._no_rays(config.voxels.size)
+        self._more_rays = self._no_rays(config.voxels.size)  # those that the second thread followed
         self.seconds = 0.0  # spent on integrating so far
         self.planar = False  # True: a planar scan, lifted
         self.own = OwnFrame()  # of the map: what takes the local frame into it
         self._limits = (config.input.min_range, config.input.max_range)
         self._own_axes = config.voxels.own_axes
-        self._checked = 0  # bytes of ray counts at which free memory was looked at last
         self._path: list[Float] = []
         self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
         self._pool = ThreadPoolExecutor(1)
@@ -128,6 +126,8 @@ class SurveyMap:
         """All points came: let go of what only further ones need."""
         self.settle()
         self.surfels.pack()
+        self.rays.pack()
+        self._more_rays = self._no_rays(self.rays.size)
 
     def sample(self) -> Surfels:
         """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
@@ -180,7 +180,7 @@ class SurveyMap:
     def _begin_again(self) -> None:
         """As before anything was decided; the points so far wait for more."""
         self._waiting, self._first = self._first, []
-        self.surfels, self.rays = SurfelMap(self.surfels.size, self._room), MissMap(self.rays.size)
+        self.surfels, self.rays = SurfelMap(self.surfels.size, self._room), self._no_rays(self.rays.size)
         self.surfels.reserve(self._expected)
         self._lattice, self.planar, self.own, self._sample = None, False, OwnFrame(), None
 
@@ -202,15 +202,11 @@ class SurveyMap:
         before.result()  # of the chunk before: the last rays of this one are followed beside the next
         if points is given:
             self._carving.result()  # an array of the caller, who may use it for something else now
-        self._check_rays()
         self.seconds += seconds()
 
-    def _check_rays(self) -> None:
-        """Raise :class:`NoPlanError` where there is no memory for the ray counts to grow once more."""
-        taken = (self.rays.blocks + self._more_rays.blocks) * BLOCK**3
-        if taken > max(_MANY_RAYS, _STEP * self._checked):
-            self._checked = taken
-            require_memory(2 * taken, f"The free space of {self.surfels.points:,} points")
+    def _no_rays(self, size: float) -> MissMap:
+        """Ray counts to begin with; there are two of them, for two threads."""
+        return MissMap(size, None if self._room is None else _RAYS * self._room)
 
     def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
         """The scan in the frame of the map, with a voxel map subdivided and a planar scan lifted."""

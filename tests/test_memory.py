@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import floorplan_core as fc
-from floorplan_core import memory, survey_map
+from floorplan_core import memory
 from floorplan_core.cli.main import run
 from floorplan_core.errors import NoPlanError
 from floorplan_core.exporters.geojson import geojson_text
+from floorplan_core.geometry.columns import strips
+from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.memory import free_memory, require_memory
+from floorplan_core.stages import layout_planes, voxel_columns
 
 SURVEY = Path(__file__).parents[1] / "resources" / "sample_survey"
 
@@ -88,12 +92,38 @@ def test_a_plan_for_which_there_is_no_memory_is_not_begun(tmp_path, monkeypatch,
     assert not (tmp_path / "plan").exists()
 
 
-def test_ray_counts_for_which_there_is_no_memory_are_not_made(tmp_path, monkeypatch):
-    monkeypatch.setattr(memory, "_MEMINFO", _meminfo(tmp_path, 66))
-    monkeypatch.setattr(survey_map, "_MANY_RAYS", 2e6)
-    planner = fc.FloorPlanner(fc.Config())
-    with pytest.raises(NoPlanError, match=r"free space of [\d,]+ points takes about \d+ MB.* 66 MB are free"):
-        for x in range(0, 300, 20):
-            angle = np.linspace(0, 2 * np.pi, 120_000)
-            ring = np.column_stack([x + 9 * np.cos(angle), 9 * np.sin(angle), 2 + 2 * np.sin(9 * angle)])
-            planner.integrate(ring, np.eye(4))
+def test_ray_counts_that_outgrow_their_room_are_the_same_on_disk():
+    rng = np.random.default_rng(2)
+    points, scan = rng.uniform(-20, 20, (4000, 3)) * [1, 1, 0.05], np.zeros(4000, dtype=np.int32)
+    inside, outside = MissMap(0.1), MissMap(0.1, room=2e6)
+    found = []
+    for misses in (inside, outside):
+        for part in np.array_split(np.arange(4000), 5):
+            misses.carve(points[part], scan[part], np.zeros((1, 3)), (0.05, 30.0))
+        misses.pack()
+        found.append(
+            misses.column_bits(np.eye(3), np.array([-20.0, -20.0]), 0.1, (400, 400), -1.0, 20, (1, 4))
+        )
+    assert isinstance(inside._pool.base, type(None))
+    assert outside._pool.base is not None  # a file, mapped
+    assert inside.blocks > 500
+    assert np.array_equal(found[0], found[1])
+
+
+@pytest.mark.parametrize("viewpoints", [True, False])
+def test_a_plan_made_strip_by_strip_is_the_same_plan(monkeypatch, viewpoints):
+    survey = fc.open_survey(SURVEY)
+    survey = survey if viewpoints else replace(survey, trajectory=None)
+    whole = fc.process(survey)
+    monkeypatch.setattr(strips, "__defaults__", (5000,))
+    monkeypatch.setattr(layout_planes, "_MANY_PROFILES", 0.0)
+    monkeypatch.setattr(voxel_columns, "_TWICE", 0)
+    parts = fc.process(survey)
+    assert len(strips(*parts.grid.states.shape)) > 5
+    assert geojson_text(whole) == geojson_text(parts)
+    assert np.array_equal(whole.grid.states, parts.grid.states)
+    assert np.array_equal(whole.wall_points.facing, parts.wall_points.facing)
+    same = zip(whole.planes, parts.planes, strict=True)
+    assert all(
+        np.array_equal(a.profile.through, b.profile.through) for a, b in same if a.profile and b.profile
+    )

@@ -222,9 +222,15 @@ def _segment(segment: LayoutSegment, line: Json) -> Json:
 
 
 def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
-    """Predicted space, clipped to just inside the regions, so that no rounding lets it out."""
-    inside = shapely.union_all(shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre"))
-    clipped = _only_polygons(shapely.intersection(plan.speculated(), inside))
+    """Predicted space, clipped to just inside the regions, so that no rounding lets it out.
+
+    Piece by piece, by region: the intersection of all with all takes the square of how many there are.
+    """
+    inside = shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre")
+    pieces = shapely.get_parts(plan.speculated())
+    region, piece = shapely.STRtree(pieces).query(inside, predicate="intersects")
+    order = np.lexsort((piece, region))
+    clipped = _only_polygons(shapely.intersection(pieces[piece[order]], inside[region[order]]))
     area = shapely.area(clipped)
     moved = rounded(clipped[area > INSET], plan.to_world, DECIMALS)
     whole = shapely.is_valid(np.array(moved, dtype=object)).tolist()

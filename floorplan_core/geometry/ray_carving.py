@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.ray_columns import sample_columns
 from floorplan_core.geometry.ray_steps import BLOCK, MOST, VOLUME, follow_rays, open_block, reach_of
+from floorplan_core.geometry.scratch import disk_array, let_go
 from floorplan_core.geometry.voxel_keys import BIAS, EMPTY, find_slot
 
 Float = NDArray[np.float64]
@@ -41,10 +42,15 @@ class _Window:
 
 
 class MissMap:
-    """Rays through each voxel; counts end at ``MOST``."""
+    """Rays through each voxel; counts end at ``MOST``.
 
-    def __init__(self, size: float) -> None:
-        self.size = size
+    :param size: metres, side of a voxel.
+    :param room: bytes that the counts may take in memory; more are on disk. A block is a page there, and a
+        scan looks at few of them. None: all there is.
+    """
+
+    def __init__(self, size: float, room: float | None = None) -> None:
+        self.size, self._room = size, room
         self._keys = np.full(1 << 10, EMPTY, dtype=np.int64)
         self._ids = np.zeros(1 << 10, dtype=np.int32)
         self._pool = np.zeros((1 << 8, VOLUME), dtype=np.uint8)
@@ -93,12 +99,18 @@ class MissMap:
             self._window, self._reach = _Window.over(low, high), np.stack([low, high])
 
     def _grow(self) -> None:
-        pool = np.zeros((2 * len(self._pool), VOLUME), dtype=np.uint8)
+        shape = 2 * len(self._pool), VOLUME
+        small = self._room is None or shape[0] * VOLUME <= self._room
+        pool = np.zeros(shape, dtype=np.uint8) if small else disk_array(shape, np.uint8)
         pool[: self._used] = self._pool[: self._used]
         keys = np.full(4 * len(pool), EMPTY, dtype=np.int64)
         ids = np.zeros(len(keys), dtype=np.int32)
         _rehash(self._keys, self._ids, keys, ids)
         self._keys, self._ids, self._pool = keys, ids, pool
+
+    def pack(self) -> None:
+        """Leave what is on disk to the disk: it counts no more as memory of this process."""
+        let_go(self._pool)
 
     def mark(self, points: NDArray[Any], rays: int) -> None:
         """Count ``rays`` rays through the voxels of (N, 3) points that are known to be free."""
@@ -131,20 +143,22 @@ class MissMap:
         z0: float,
         levels: int,
         least: tuple[int, int],
+        first: int = 0,
     ) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
         """Two (ny, nx) words: bit ``k`` set where at least ``least[0]`` (``least[1]``) rays passed level k.
 
         The map is sampled at the cell centres of a grid in another frame: ``rotation`` takes local to grid
         coordinates; column [iy, ix] starts at ``origin + cell * [ix, iy]``, level k at ``z0 + k * cell``.
+        The words begin with the row ``first`` of that grid.
         """
-        few, many = np.zeros(shape, dtype=np.uint64), np.zeros(shape, dtype=np.uint64)
+        few, many = np.empty(shape, dtype=np.uint64), np.empty(shape, dtype=np.uint64)
         tables = (self._keys, self._ids, self._pool, self.size)
         grid = (np.ascontiguousarray(rotation), origin, cell, z0, levels)
 
-        def rows(start: int, stop: int) -> None:
-            sample_columns(tables, grid, least, few, many, start, stop)
+        def part(start: int, stop: int) -> None:
+            sample_columns(tables, grid, least, few, many, first, first + start, first + stop)
 
-        in_halves(rows, shape[0], worth=50)
+        in_halves(part, shape[0], worth=50)
         return few, many
 
 

@@ -14,8 +14,9 @@ from floorplan_core.geometry.voxel_keys import EMPTY, find_slot, pack
 
 
 @njit(cache=True, nogil=True)
-def sample_columns(tables, grid, least, few, many, start, stop):  # type: ignore[no-untyped-def]
-    """Fill rows ``start`` to ``stop`` of the words ``few`` and ``many`` (:meth:`MissMap.column_bits`)."""
+def sample_columns(tables, grid, least, few, many, first, start, stop):  # type: ignore[no-untyped-def]
+    """Fill rows ``start`` to ``stop`` of the words ``few`` and ``many``, which begin with row ``first``
+    (:meth:`MissMap.column_bits`)."""
     keys, ids, pool, size = tables
     rotation, origin, cell, z0, levels = grid
     r, one = rotation * (1.0 / size), np.uint64(1)
@@ -42,7 +43,7 @@ def sample_columns(tables, grid, least, few, many, start, stop):  # type: ignore
                         bits |= bit if rays >= least[0] else np.uint64(0)
                         more |= bit if rays >= least[1] else np.uint64(0)
                 k = end
-            few[iy, ix], many[iy, ix] = bits, more
+            few[iy - first, ix], many[iy - first, ix] = bits, more
 
 
 @njit(cache=True, inline="always")

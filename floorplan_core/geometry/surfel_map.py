@@ -7,6 +7,7 @@ the number of points, and where a limit is set no further than that: the rest go
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -34,6 +35,7 @@ _SPARSE = (
     4  # slots of the hash for each row: neighbours fill whole stretches of it, so half empty is too full
 )
 _ROW_BYTES = 4 * _SPARSE + 8 + 4 * COLUMNS  # of a surfel: its slots, its key, its sums
+_COLUMNS = 0.5  # of the room, that the columns over the plan may take besides
 _BATCH = 256  # points whose slots are looked up together: what is kept of them fits the first-level cache
 
 
@@ -159,6 +161,11 @@ class SurfelMap:
         self._runs.append(self._keys[: self._used], self._sums[: self._used])
         self._used, self._on_disk = 0, False
         self._resize(self._most or _START)
+
+    def columns(self, *shape: int) -> NDArray[np.uint64]:
+        """Zeros, a word for each column over the plan: on disk if the surfels are, or as much has no room."""
+        large = self._room is not None and 8 * math.prod(shape) > _COLUMNS * self._room
+        return disk_array(shape, np.uint64) if large or self.on_disk else np.zeros(shape, dtype=np.uint64)
 
     def _array(self, kind: DTypeLike, *shape: int) -> NDArray[Any]:
         """An array for something of each surfel: where the surfels are."""

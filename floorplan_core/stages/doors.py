@@ -24,6 +24,7 @@ from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from floorplan_core.stages.shut_doors import find_leaves, unknown_leaves
 
+_LANE = 1.0  # m, width of the lanes in which openings are looked up
 _PASSABLE = 0.5  # m that two faces must have in common
 _BESIDE = 0.5  # m from an aperture, within which one of its planes was seen: it is cut into a wall
 _REVERSED = 0.02  # m by which noise may bring the face of a wall before its other face
@@ -98,18 +99,26 @@ def merge_faces(
     Where its plane was not seen beside it, an aperture is a gap in the line of a wall that stands elsewhere:
     it only adds to another. Of two in surfaces that look at each other the first stays; which way they
     look is a guess without ``viewpoints``.
+    Each is compared with those of neighbouring lanes along its wall only: a site has thousands.
     """
     named = {p.id: p for p in planes}
     out: list[Candidate] = []
+    lanes: dict[tuple[int, int], list[int]] = {}
+    wide = max(_LANE, 2 * config.max_thickness)
     for candidate in sorted(found, key=lambda c: (not _is_beside(c.door, named), *_surest_first(c))):
-        for k, other in enumerate(out):
-            if _same_opening(candidate.door, other.door, config):
-                mine, face = (named[c.door.planes[0]] for c in (candidate, other))
-                if not (viewpoints and _look_at_each_other(mine, face)):
-                    out[k] = _merged(other, candidate, mine.facing != face.facing)
-                break
-        else:
+        door = candidate.door
+        lane = int(door.offset // wide)
+        near = sorted(k for i in (lane - 1, lane, lane + 1) for k in lanes.get((door.axis, i), ()))
+        k = next((k for k in near if _same_opening(door, out[k].door, config)), len(out))
+        if k == len(out):
             out.append(candidate)
+        else:
+            other = out[k].door
+            lanes[other.axis, int(other.offset // wide)].remove(k)
+            mine, face = (named[d.planes[0]] for d in (door, other))
+            if not (viewpoints and _look_at_each_other(mine, face)):
+                out[k] = _merged(out[k], candidate, mine.facing != face.facing)
+        lanes.setdefault((door.axis, int(out[k].door.offset // wide)), []).append(k)
     return [c for c in out if _is_beside(c.door, named)]
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.columns import by_strips, count_bits, height_mask
 from floorplan_core.model import LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.door_apertures import shows_lintels
@@ -41,7 +41,8 @@ def close_hidden_gaps(
     if shows_lintels([p.profile for p in planes if p.profile]):
         return tuple(planes)
     body = height_mask(*_BODY)
-    free = count_bits(evidence.free & body) > _FREE * int(body).bit_count()
+    least = _FREE * int(body).bit_count()
+    free = by_strips(evidence.free, lambda some: count_bits(some & body) > least)
     gaps = [_hidden(p, planes, free, evidence, config.max_width) for p in planes]
     return tuple(
         replace(p, walls=united([*map(tuple, p.walls.tolist()), *hidden])) if hidden else p

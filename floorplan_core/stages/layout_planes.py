@@ -18,6 +18,7 @@ from floorplan_core.config import DoorsConfig, PlanesConfig
 from floorplan_core.errors import NoPlanError
 from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask, levels_in_all
 from floorplan_core.geometry.runs import runs_of
+from floorplan_core.geometry.scratch import disk_array, let_go
 from floorplan_core.model import Facing, LayoutPlane, LayoutSegment, WallProfile
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.layout_segments import SegmentRows, wall_band
@@ -25,6 +26,7 @@ from floorplan_core.stages.model_selection import pierce_intervals
 
 Float = NDArray[np.float64]
 
+_MANY_PROFILES = 64e6  # bytes of the profiles of one facing, from which they leave memory
 _LOW_FROM = 0.2  # m, skirting and floor
 _PASSAGE = (0.4, 1.8)  # m, heights at which a passage must be free
 _RECESSED = 0.8  # share of a plane that must lie behind another wall to be its recess
@@ -53,17 +55,35 @@ def find_planes(
         offset = np.array([s.offset for s in mine])
         reach = np.array([config.tolerance + 3 * min(s.sigma, config.tolerance) for s in mine])
         group = pierce_intervals(offset - reach, offset + reach)
+        found: list[LayoutPlane] = []
         for g in range(int(group.max()) + 1):
             members = [s for s, k in zip(mine, group, strict=True) if k == g]
-            plane = _plane(f"p{len(planes) + 1}", facing, members, wall, rows, evidence, config, doors)
-            planes.append(plane)
-            named.update({s.id: replace(s, plane=plane.id) for s in members})
+            name = f"p{len(planes) + len(found) + 1}"
+            found.append(_plane(name, facing, members, wall, rows, evidence, config, doors))
+            named.update({s.id: replace(s, plane=name) for s in members})
+        planes += _without_memory(found)
     if not planes:
         raise NoPlanError(
             "No wall was recognised: every vertical surface ends below furniture height "
             "(segments.furniture_height) or is too small; scan higher, or lower that setting."
         )
     return tuple(named[s.id] for s in segments), tuple(planes)
+
+
+def _without_memory(planes: list[LayoutPlane]) -> list[LayoutPlane]:
+    """The planes with their profiles on disk, where they take much: each is as long as the site."""
+    profiles = [p.profile for p in planes if p.profile]
+    sizes = [len(p.low) for p in profiles]
+    if 3 * 8 * sum(sizes) <= _MANY_PROFILES:
+        return planes
+    held, starts = disk_array((3, sum(sizes)), np.float64), np.cumsum([0, *sizes]).tolist()
+    moved = []
+    for plane, profile, a, b in zip(planes, profiles, starts, starts[1:], strict=False):
+        held[:, a:b] = profile.low, profile.high, profile.through
+        low, high, through = held[:, a:b]
+        moved.append(replace(plane, profile=replace(profile, low=low, high=high, through=through)))
+    let_go(held)
+    return moved
 
 
 def pairable(planes: Sequence[LayoutPlane], config: PlanesConfig) -> list[LayoutPlane]:

@@ -25,6 +25,8 @@ from floorplan_core.geometry.columns import (
     facing_columns,
     height_mask,
     link_chains,
+    strips,
+    surface_cells,
     surface_offsets,
 )
 from floorplan_core.model import Facing, LayoutSegment
@@ -39,7 +41,7 @@ _SKIRTING = 0.2  # m above the floor below which nothing counts as wall
 _HIST = 60  # bins of 2.5 mm on each side of a segment, for its robust offset
 _HIST_BIN = 0.0025
 _WIDEST = 0.04  # m, standard deviation that a surface may have
-_AT_A_TIME = 2  # facings: each takes 48 bytes for each fine column, 400 of them a square metre
+_AT_A_TIME = 2  # facings: each takes 48 bytes for each column of a strip
 
 
 @dataclass(frozen=True)
@@ -93,10 +95,10 @@ def find_segments(
 def _segments_of(
     upright: UprightSurfels, facing: Facing, config: SegmentsConfig
 ) -> list[tuple[LayoutSegment, SegmentRows]]:
-    surfaces, label = _surfaces(upright, facing, config)
+    surfaces = _surfaces(upright, facing, config)
     if surfaces.chains == 0:
         return []
-    mean, histogram, spread, points = _fit_histograms(upright, facing, surfaces, label)
+    mean, histogram, spread, points = _fit_histograms(upright, facing, surfaces)
     patches = _large_patches(surfaces, upright, config)
     chain = patches.chain
     offset, sigma, weight = _robust_offsets(mean[chain], histogram[chain])
@@ -122,27 +124,33 @@ def _large_patches(surfaces: FacingSurfaces, upright: UprightSurfels, config: Se
     return Patches(np.flatnonzero(large), first, row[kept], bits[kept], area[large])
 
 
-def _surfaces(
-    upright: UprightSurfels, facing: Facing, config: SegmentsConfig
-) -> tuple[FacingSurfaces, NDArray[np.int32]]:
-    """Chains of columns that line up, and (nv, nu) the chain near each cell (-1: none)."""
+def _surfaces(upright: UprightSurfels, facing: Facing, config: SegmentsConfig) -> FacingSurfaces:
+    """Chains of columns that line up; the columns are made strip by strip across the wall."""
     evidence, a = upright.evidence, facing.axis
-    ny, nx = evidence.hits.shape
-    nv, nu = (ny, nx) if a == 0 else (nx, ny)
-    fine = evidence.fine
-    bits, sums = facing_columns(
-        *(evidence.xyz, upright.row, upright.column, upright.level, upright.of(facing)),
-        *(a, evidence.origin, fine, nv, nu),
-    )
+    fine, (nv, nu) = evidence.fine, _extent(evidence, facing)
     half = max(1, round(config.window / fine / 2 - 0.5))
     tangent = math.tan(math.radians(config.angle_deg))
-    offsets = surface_offsets(bits, sums, upright.band, fine, half, tangent, 8.0)
+    chosen, found = upright.of(facing), []
+    for first, last in strips(nv, nu):
+        low, high = max(first - half, 0), min(last + half, nv)  # a window reaches into the next strip
+        bits, sums = facing_columns(
+            *(evidence.xyz, upright.row, upright.column, upright.level, chosen),
+            *(a, evidence.origin, fine, low, high, nu),
+        )
+        offsets = surface_offsets(bits, sums, upright.band, fine, half, tangent, 8.0)
+        found.append(surface_cells(offsets, bits, low, first - low, last - low))
+    cells = [found[0][k] if len(found) == 1 else np.concatenate([f[k] for f in found]) for k in range(3)]
     node, node_u, node_bits, chains = link_chains(
-        offsets, bits, config.offset_tolerance / fine, round(config.join_gap / fine)
+        *(*cells, nv, config.offset_tolerance / fine, round(config.join_gap / fine))
     )
-    label = _label_cells(node, nv, nu)
     offset = evidence.origin[a] + node_u * fine
-    return FacingSurfaces(facing, node, offset, node_bits, int(chains)), label
+    return FacingSurfaces(facing, node, offset, node_bits, int(chains))
+
+
+def _extent(evidence: Evidence, facing: Facing) -> tuple[int, int]:
+    """Fine columns along the walls of a facing, and across them."""
+    ny, nx = evidence.hits.shape
+    return (ny, nx) if facing.axis == 0 else (nx, ny)
 
 
 def wall_band(evidence: Evidence) -> np.uint64:
@@ -153,42 +161,56 @@ def wall_band(evidence: Evidence) -> np.uint64:
 
 
 @njit(cache=True, nogil=True)
-def _label_cells(node, nv, nu):  # type: ignore[no-untyped-def]
-    """Spread each chain two cells beyond its columns, where the tails of the noise are."""
-    label = np.full((nv, nu), -1, dtype=np.int32)
+def _label_points(node, first, last, nu, column, axis, chosen, out):  # type: ignore[no-untyped-def]
+    """Set ``out`` (N,) to the chain that each chosen point in rows ``first`` to ``last`` is near.
+
+    ``node`` are those of these rows. Each chain is spread two cells beyond its columns, where the tails of
+    the noise are.
+    """
+    label = np.full((last - first, nu), -1, dtype=np.int32)
     for reach in (0, 1, 2):
         for k in range(len(node)):
             for iu in range(max(0, node[k, 2] - reach), min(nu, node[k, 3] + reach + 1)):
-                if label[node[k, 1], iu] < 0:
-                    label[node[k, 1], iu] = node[k, 0]
-    return label
+                if label[node[k, 1] - first, iu] < 0:
+                    label[node[k, 1] - first, iu] = node[k, 0]
+    for n in range(len(column)):
+        if chosen[n] and first <= column[n, 1 - axis] < last:
+            out[n] = label[column[n, 1 - axis] - first, column[n, axis]]
+
+
+def _chains_of(upright: UprightSurfels, facing: Facing, surfaces: FacingSurfaces) -> NDArray[np.int32]:
+    """(N,) the chain that each of the upright surfels belongs to; -1: none."""
+    nv, nu = _extent(upright.evidence, facing)
+    # Where a thin wall's other face is within reach, only what surely belongs to this one counts.
+    chosen, out = upright.surely_of(facing), np.full(len(upright.row), -1, dtype=np.int32)
+    for first, last in strips(nv, nu):
+        nodes = slice(*np.searchsorted(surfaces.node[:, 1], (first, last)).tolist())
+        _label_points(surfaces.node[nodes], first, last, nu, upright.column, facing.axis, chosen, out)
+    return out
 
 
 def _fit_histograms(
-    upright: UprightSurfels, facing: Facing, surfaces: FacingSurfaces, label: NDArray[np.int32]
+    upright: UprightSurfels, facing: Facing, surfaces: FacingSurfaces
 ) -> tuple[Float, Float, Float, Float]:
     """For each chain: mean offset, histogram of distances to it, mean variance inside surfels, points."""
-    evidence, a = upright.evidence, facing.axis
+    evidence = upright.evidence
     weight = count_bits(surfaces.bits).astype(float)
     total = np.bincount(surfaces.node[:, 0], weights=weight, minlength=surfaces.chains)
     mean = (
         np.bincount(surfaces.node[:, 0], weights=weight * surfaces.offset, minlength=surfaces.chains) / total
     )
-    # Where a thin wall's other face is within reach, only what surely belongs to this one counts.
+    label = _chains_of(upright, facing, surfaces)
     return mean, *_histograms(
-        *(evidence.xyz, evidence.count, evidence.spread, upright.row, upright.column),
-        *(upright.surely_of(facing), label, mean, a),
+        *(evidence.xyz, evidence.count, evidence.spread, upright.row, label, mean, facing.axis)
     )
 
 
 @njit(cache=True, nogil=True)
-def _histograms(xyz, count, variance, row, column, chosen, label, mean, axis):  # type: ignore[no-untyped-def]
+def _histograms(xyz, count, variance, row, label, mean, axis):  # type: ignore[no-untyped-def]
     hist = np.zeros((len(mean), 2 * _HIST))
     spread, points = np.zeros(len(mean)), np.zeros(len(mean))
     for n in range(len(row)):
-        if not chosen[n]:
-            continue
-        c = label[column[n, 1 - axis], column[n, axis]]
+        c = label[n]
         if c < 0:
             continue
         i = row[n]

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.geometry.columns import count_bits, height_mask
+from floorplan_core.geometry.columns import by_strips, count_bits, height_mask
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import Door, LayoutPlane
 from floorplan_core.model.evidence import Evidence
@@ -138,8 +138,8 @@ class _Space:
         self._origin, self._cell = evidence.origin, evidence.cell
         body = height_mask(*_BODY)
         levels = int(body).bit_count()
-        floor = count_bits(evidence.free & body) > _FREE * levels
-        stands = count_bits(evidence.occupied & body) > _STANDS * levels
+        floor = by_strips(evidence.free, lambda some: count_bits(some & body) > _FREE * levels)
+        stands = by_strips(evidence.occupied, lambda some: count_bits(some & body) > _STANDS * levels)
         label, _ = label_patches(~floor, connectivity=8)
         speck = np.bincount(label.ravel()) * evidence.cell**2 < _SPECK
         speck[0] = False

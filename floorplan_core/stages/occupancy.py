@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import OccupancyConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import LEVEL, height_mask
+from floorplan_core.geometry.columns import LEVEL, by_strips, height_mask, merged
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, Door, LayoutPlane, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
@@ -40,10 +40,10 @@ def slice_map(
     """Sample the voxel map and keep the free cells that the cover has to explain."""
     height = _best_height(evidence) if config.slice_height is None else config.slice_height
     level = min(int(height / LEVEL), 60)
-    free = (evidence.free & height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL)) != 0
-    occupied = (evidence.occupied & height_mask(level * LEVEL, (level + 1) * LEVEL)) != 0
+    free = _any(evidence.free, height_mask((level - _BAND) * LEVEL, (level + _BAND + 1) * LEVEL))
     free |= _open_floor(evidence)
-    states = np.where(occupied, OCCUPIED, np.where(free, FREE, UNOBSERVED)).astype(np.uint8)
+    states = np.where(free, np.uint8(FREE), np.uint8(UNOBSERVED))
+    states[_any(evidence.occupied, height_mask(level * LEVEL, (level + 1) * LEVEL))] = OCCUPIED
     universe = _indoors(states == FREE, evidence, planes, doors, config)
     if not universe.any():
         raise NoPlanError(
@@ -57,14 +57,19 @@ def _open_floor(evidence: Evidence) -> Mask:
     """Cells whose floor was seen and above it something free: through a door a sensor looks down on floor."""
     if evidence.inferred:  # the free space was made of the floor there
         return np.zeros(evidence.shape, dtype=bool)
-    return np.asarray(_floor_cells(evidence) & ((evidence.free & height_mask(*_WALKED)) != 0))
+    return np.asarray(_floor_cells(evidence) & _any(evidence.free, height_mask(*_WALKED)))
+
+
+def _any(columns: Bits, mask: np.uint64) -> Mask:
+    """(ny, nx) columns with any of these levels."""
+    return by_strips(columns, lambda some: (some & mask) != 0)
 
 
 def _best_height(evidence: Evidence) -> float:
     """The middle of the level at which most cells are free."""
     best, most = _HEIGHTS[0], -1
     for level in range(round(_HEIGHTS[0] / LEVEL), round(_HEIGHTS[1] / LEVEL)):
-        seen = int(np.count_nonzero(evidence.free & height_mask(level * LEVEL, (level + 1) * LEVEL)))
+        seen = int(np.count_nonzero(_any(evidence.free, height_mask(level * LEVEL, (level + 1) * LEVEL))))
         if seen > most:
             best, most = (level + 0.5) * LEVEL, seen
     return best
@@ -91,7 +96,7 @@ def _indoors(
     visited[0] = False
 
     def share(cover: Mask) -> Float:
-        return np.bincount(label.ravel(), weights=cover.ravel(), minlength=count) / np.maximum(area, 1)
+        return np.bincount(label[cover], minlength=count) / np.maximum(area, 1)
 
     sure = visited if visited.any() else large
     ceiling, floor = share(_ceiling_cells(evidence)), share(_floor_cells(evidence))
@@ -173,5 +178,7 @@ def _floor_cells(evidence: Evidence) -> Mask:
 
 
 def _any_hit(evidence: Evidence, mask: np.uint64) -> Mask:
-    hit: Bits = evidence.hits & mask
-    return np.asarray((hit[::2, ::2] | hit[1::2, ::2] | hit[::2, 1::2] | hit[1::2, 1::2]) != 0)
+    def hit(hits: Bits) -> Mask:
+        return np.asarray((merged(hits) & mask) != 0)
+
+    return by_strips(evidence.hits, hit)

@@ -13,11 +13,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.config import Config
+from floorplan_core.config import CandidatesConfig, Config
 from floorplan_core.model import Facing, LayoutPlane, OccupancyGrid, RectangleCover
 from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.set_cover import cover as cover_free_space
 
+_SITE = 20_000.0  # m2, for so much of a site the greatest number of valid rectangles holds
 _LEAST = 0.6  # m of straight frontier that is worth a plane
 _REACH = 4  # cells between the end of a wall and an uncovered cell
 
@@ -39,7 +40,9 @@ def cover_the_rest(
     if not extra:
         return planes, cover
     rest = replace(grid, universe=cover.uncovered)
-    narrow = config.candidates.model_copy(update={"min_side": config.candidates.min_rest_side})
+    narrow = for_site(config.candidates, grid).model_copy(
+        update={"min_side": config.candidates.min_rest_side}
+    )
     more = cover_free_space(pair_planes([*paired, *extra], walls, rest, narrow), rest, config.cover)
     joined = RectangleCover(
         np.concatenate([cover.chosen, np.full(len(more), -1, dtype=np.int64)]),
@@ -51,6 +54,13 @@ def cover_the_rest(
     )
     used = {round(float(v), 9) for v in more.bounds.ravel()}
     return (*planes, *(p for p in extra if round(p.offset, 9) in used)), joined
+
+
+def for_site(config: CandidatesConfig, grid: OccupancyGrid) -> CandidatesConfig:
+    """The settings, where more rectangles may be valid on a site of many buildings."""
+    x0, y0, x1, y1 = grid.extent
+    share = max(1.0, (x1 - x0) * (y1 - y0) / _SITE)
+    return config.model_copy(update={"max_count": round(config.max_count * share)})
 
 
 def frontier_planes(

@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.columns import LEVEL, height_mask
+from floorplan_core.geometry.columns import LEVEL, by_strips, height_mask, merged, strips
 from floorplan_core.geometry.masks import label_patches
 from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.geometry.runs import runs_of
@@ -66,8 +66,9 @@ def find_flights(evidence: Evidence) -> tuple[Flight, ...]:
     """
     if evidence.inferred:
         return ()
-    top = _tops(evidence)
-    top = np.where(_walked(evidence, top), top, -1)
+    top = by_strips(evidence.hits, _tops)
+    for first, last in strips(*top.shape):
+        top[first:last] = _walked(evidence.free[first:last], top[first:last])
     found = []
     for axis in (0, 1):
         lines = top if axis == 0 else top.T  # one line each row, in the way that a flight would rise
@@ -127,22 +128,22 @@ def part_flights(polygon: Any, flights: Sequence[Flight], doors: Sequence[Door])
     return [*polygons_of(rest), *out] if out else [polygon]
 
 
-def _tops(evidence: Evidence) -> NDArray[np.int64]:
+def _tops(hits: NDArray[np.uint64]) -> NDArray[np.int8]:
     """(ny, nx) number of the topmost level between floor and head that was hit, -1 where none was."""
-    hits = evidence.hits & height_mask(0.0, _HEAD)
-    bits = hits[::2, ::2] | hits[1::2, ::2] | hits[::2, 1::2] | hits[1::2, 1::2]
+    bits = merged(hits) & height_mask(0.0, _HEAD)
     highest = np.floor(np.log2(np.maximum(bits, 1).astype(np.float64)))
-    return np.asarray(np.where(bits != 0, highest, -1), dtype=np.int64)
+    return np.asarray(np.where(bits != 0, highest, -1), dtype=np.int8)
 
 
-def _walked(evidence: Evidence, tops: NDArray[np.int64]) -> Mask:
-    """(ny, nx) cells over whose topmost level it is free, as it is where a person walks."""
+def _walked(free: NDArray[np.uint64], tops: NDArray[np.int8]) -> NDArray[np.int8]:
+    """``tops`` of cells over whose topmost level it is free, as it is where a person walks; -1 elsewhere."""
     first = np.maximum(tops, 0).astype(np.uint64) + np.uint64(_CLEAR[0])
-    above = evidence.free >> first & np.uint64((1 << _CLEAR[1]) - 1)
-    return np.asarray((np.bitwise_count(above) >= _CLEAR[1] // 2) | (tops > _HIGH))
+    above = free >> first & np.uint64((1 << _CLEAR[1]) - 1)
+    walked = (np.bitwise_count(above) >= _CLEAR[1] // 2) | (tops > _HIGH)
+    return np.where(walked, tops, np.int8(-1))
 
 
-def _rising(lines: NDArray[np.int64], cell: float) -> Mask:
+def _rising(lines: NDArray[np.int8], cell: float) -> Mask:
     """(R, C) cells of the lines that belong to a rise as of stairs to the right.
 
     What was not seen is as high as what is before it: of a tread above the eye only the riser shows. So is
@@ -151,7 +152,7 @@ def _rising(lines: NDArray[np.int64], cell: float) -> Mask:
     tops = lines.copy()
     for _ in range(_HIDDEN):
         tops[:, 1:] = np.where(tops[:, 1:] <= 0, tops[:, :-1], tops[:, 1:])
-    change = np.diff(tops, axis=1, append=0)
+    change = np.diff(tops, axis=1, append=np.int8(0))
     linked = (tops > 0) & (np.roll(tops, -1, axis=1) > 0) & (change >= _FALL) & (change <= _RISE)
     linked[:, -1] = False  # the last cell of a line has no next
     out = np.zeros(lines.shape, dtype=bool)

@@ -8,13 +8,14 @@ Floor and ceiling, most of all surfels, are passed over once here. Cost: linear 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.columns import LEVEL, count_bits, height_mask
+from floorplan_core.geometry.columns import LEVEL, by_strips, height_mask
 from floorplan_core.geometry.halves import in_halves
 from floorplan_core.model import Facing
 from floorplan_core.model.evidence import Evidence
@@ -51,14 +52,15 @@ class UprightSurfels:
 
         ``skin`` cells just in front may hold the surface's own noise.
         """
-        tall = count_bits(self.evidence.hits & self.band & height_mask(0.0, _HEAD)) >= 4
-        free = (self.evidence.free & height_mask(0.5, 1.9)) != 0
-        free = np.repeat(np.repeat(free, 2, axis=0), 2, axis=1)
-        if facing.axis == 1:
-            tall, free = tall.T, free.T
-        a, step = facing.axis, facing.sign
-        tall, free = np.ascontiguousarray(tall), np.ascontiguousarray(free)
-        return np.asarray(_first_in_front(self.column[:, a], self.column[:, 1 - a], step, skin, tall, free))
+        at = self.column[:, 0], self.column[:, 1]
+        return np.asarray(_first_in_front(*at, facing.axis, facing.sign, skin, *self.around))
+
+    @cached_property
+    def around(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Fine columns that hold a wall, and coarse ones that are free."""
+        low, body = self.band & height_mask(0.0, _HEAD), height_mask(0.5, 1.9)
+        tall = by_strips(self.evidence.hits, lambda hits: np.bitwise_count(hits & low) >= 4)
+        return tall, by_strips(self.evidence.free, lambda free: (free & body) != 0)
 
 
 def upright_surfels(evidence: Evidence, low: float, band: np.uint64) -> UprightSurfels:
@@ -103,20 +105,21 @@ def _upright(xyz, view, low, high, origin, cell, ny, nx):  # type: ignore[no-unt
 
 
 @njit(cache=True, nogil=True)
-def _first_in_front(iu, iv, sign, skin, tall, free):  # type: ignore[no-untyped-def]
-    out = np.zeros(len(iu), dtype=np.bool_)
-    nu = tall.shape[1]
+def _first_in_front(ix, iy, axis, sign, skin, tall, free):  # type: ignore[no-untyped-def]
+    out = np.zeros(len(ix), dtype=np.bool_)
+    ny, nx = tall.shape
     seen = np.zeros(2, dtype=np.bool_)  # free space in front, behind
     open_ = np.zeros(2, dtype=np.bool_)  # no wall within reach in front, behind
-    for i in range(len(iu)):
+    for i in range(len(ix)):
         for side in range(2):
             seen[side], open_[side] = False, True
             for step in range(1, 9):
-                ju = iu[i] + (sign * step if side == 0 else -sign * step)
-                if ju < 0 or ju >= nu or (step > skin and tall[iv[i], ju]):
+                away = sign * step if side == 0 else -sign * step
+                jx, jy = (ix[i] + away, iy[i]) if axis == 0 else (ix[i], iy[i] + away)
+                if jx < 0 or jx >= nx or jy < 0 or jy >= ny or (step > skin and tall[jy, jx]):
                     open_[side] = seen[side]
                     break
-                if free[iv[i], ju]:
+                if free[jy // 2, jx // 2]:
                     seen[side] = True
                     break
         out[i] = seen[0] or (open_[0] and not seen[1])

@@ -13,7 +13,15 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import VoxelConfig
 from floorplan_core.errors import NoPlanError
-from floorplan_core.geometry.columns import LEVEL, LEVELS, count_bits, height_mask, hit_columns
+from floorplan_core.geometry.columns import (
+    LEVEL,
+    LEVELS,
+    count_bits,
+    height_mask,
+    hit_columns,
+    merged,
+    strips,
+)
 from floorplan_core.geometry.halves import in_halves
 from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
@@ -28,7 +36,8 @@ _MARGIN = 1.0  # m of empty cells around the data
 _STANDING = height_mask(0.3, 2.0)  # where a wall is full, and a scan of furniture seldom
 _FULL = 0.9  # of it that was hit
 _WALL = 2  # cells to the face on each side: walls up to 0.3 m, where they lie badly
-LARGEST = 60_000_000  # cells of the fine grid: a site of 380 x 380 m
+_TWICE = 10_000_000  # columns that two threads have each for themselves: 80 MB more
+LARGEST = 250_000_000  # cells of the fine grid: a site of 790 x 790 m
 
 
 def gather_evidence(
@@ -41,16 +50,23 @@ def gather_evidence(
     cell = config.size
     origin, shape = _grid(xyz, path_xy, cell)
     fine = cell / 2
-    hits = _hits(xyz, origin, fine, (2 * shape[0], 2 * shape[1]))
-    surface = _merge_cells(hits)
-    if misses.blocks > 0:
-        least = (config.min_misses, round(1 / config.hit_ratio) + 1)
-        rays, many = misses.column_bits(frame.rotation, origin, cell, shape, frame.floor_z, LEVELS, least)
-        occupied = surface & ~(many & ~_solid(surface))
-        free = rays & ~occupied
-    else:
-        occupied = surface
-        free = _free_between_floor_and_ceiling(surface, frame)
+    hits = surfels.columns(2 * shape[0], 2 * shape[1])
+    _mark_hits(xyz, origin, fine, hits)
+    free, occupied = surfels.columns(*shape), surfels.columns(*shape)
+    for first, last in strips(*shape):
+        low, high = max(first - _WALL, 0), min(last + _WALL, shape[0])  # rows that tell what is in a wall
+        around = merged(hits[2 * low : 2 * high])
+        surface = around[first - low : last - low]
+        if misses.blocks > 0:
+            least = (config.min_misses, round(1 / config.hit_ratio) + 1)
+            grid = (origin, cell, (last - first, shape[1]), frame.floor_z, LEVELS)
+            rays, many = misses.column_bits(frame.rotation, *grid, least, first)
+            occupied[first:last] = surface & ~(many & ~_solid(surface))
+            free[first:last] = rays & ~occupied[first:last]
+        else:
+            occupied[first:last] = surface
+            free[first:last] = _free_between_floor_and_ceiling(around, frame)[first - low : last - low]
+    misses.pack()
     return Evidence(
         frame,
         xyz,
@@ -86,18 +102,25 @@ def _grid(xyz: Float, path: Float, cell: float) -> tuple[Float, tuple[int, int]]
     return origin, (ny, nx)
 
 
-def _hits(xyz: Float, origin: Float, cell: float, shape: tuple[int, int]) -> NDArray[np.uint64]:
-    """Levels that hold points, of each fine column; two threads that mark half of the points each."""
-    parts: list[NDArray[np.uint64]] = []
-    in_halves(
-        lambda start, stop: parts.append(hit_columns(xyz[start:stop], origin, cell, *shape)), len(xyz), _WORTH
-    )
-    return np.bitwise_or(parts[0], parts[1], out=parts[0]) if len(parts) > 1 else parts[0]
+def _mark_hits(xyz: Float, origin: Float, cell: float, out: NDArray[np.uint64]) -> None:
+    """Set the levels that hold points, of each fine column; two threads that mark half of the points each.
 
+    A grid that is large is not marked twice.
+    """
+    if out.size > _TWICE:
+        hit_columns(xyz, origin, cell, out)
+        return
+    parts = [out]
 
-def _merge_cells(fine: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Union of each 2 x 2 block of fine columns."""
-    return fine[::2, ::2] | fine[1::2, ::2] | fine[::2, 1::2] | fine[1::2, 1::2]
+    def mark(start: int, stop: int) -> None:
+        hits = out if start == 0 else np.zeros_like(out)
+        hit_columns(xyz[start:stop], origin, cell, hits)
+        if start:
+            parts.append(hits)
+
+    in_halves(mark, len(xyz), _WORTH)
+    for other in parts[1:]:
+        np.bitwise_or(out, other, out=out)
 
 
 def _solid(surface: NDArray[np.uint64]) -> NDArray[np.uint64]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.geometry.columns import LEVEL, count_bits
+from floorplan_core.geometry.columns import LEVEL, by_strips
 from floorplan_core.model import LayoutSegment, WallPoints
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.layout import turned
@@ -22,9 +22,9 @@ def thin_wall_points(evidence: Evidence, segments: Sequence[LayoutSegment]) -> W
 
     :param segments: those of wings too, each in its own axes.
     """
-    bits = evidence.hits & wall_band(evidence)
-    at = np.flatnonzero(count_bits(bits) >= _LEVELS)
-    (iy, ix), word = np.divmod(at, bits.shape[1]), bits.ravel()[at]
+    band = wall_band(evidence)
+    at = np.flatnonzero(by_strips(evidence.hits, lambda hits: np.bitwise_count(hits & band) >= _LEVELS))
+    (iy, ix), word = np.divmod(at, evidence.hits.shape[1]), evidence.hits.ravel()[at] & band
     xy = np.empty((len(ix), 2), dtype=np.float32)
     for k, cells in enumerate((ix, iy)):
         xy[:, k] = evidence.origin[k] + (cells + 0.5) * evidence.fine

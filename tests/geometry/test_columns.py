@@ -16,6 +16,7 @@ from floorplan_core.geometry.columns import (
     hit_columns,
     link_chains,
     popcount,
+    surface_cells,
     surface_offsets,
 )
 
@@ -49,7 +50,9 @@ def test_hit_columns_against_plain_python():
         ix, iy, k = (int(np.floor(v)) for v in ((x + 0.5) / CELL, (y + 0.4) / CELL, z / LEVEL))
         if 0 <= ix < 60 and 0 <= iy < 40 and 0 <= k < LEVELS:
             expected[iy, ix] |= np.uint64(1 << k)
-    assert np.array_equal(hit_columns(xyz, origin, CELL, 40, 60), expected)
+    found = np.zeros((40, 60), dtype=np.uint64)
+    hit_columns(xyz, origin, CELL, found)
+    assert np.array_equal(found, expected)
 
 
 def _wall(offset: float, facing: float, slope: float = 0.0, rows: int = 40, seed: int = 0):
@@ -66,7 +69,7 @@ def _offsets(*walls, nv=40, nu=60):
     xyz, row = np.column_stack([u, v, z]), np.arange(len(u), dtype=np.int32)
     column = np.floor(xyz[:, :2] / CELL).astype(np.int32)
     level = np.floor(z / LEVEL).astype(np.uint8)
-    bits, sums = facing_columns(xyz, row, column, level, toward > 0.03, 0, np.zeros(2), CELL, nv, nu)
+    bits, sums = facing_columns(xyz, row, column, level, toward > 0.03, 0, np.zeros(2), CELL, 0, nv, nu)
     return bits, surface_offsets(bits, sums, height_mask(0.2, 2.4), CELL, 3, np.tan(np.radians(15)), 8.0)
 
 
@@ -98,7 +101,8 @@ def test_a_post_is_no_surface():
 
 def _chains(offsets, gap=8, tolerance=1.2):
     bits = np.where(np.isnan(offsets), np.uint64(0), np.uint64(0b1110)).astype(np.uint64)
-    return link_chains(offsets.astype(np.float32), bits, tolerance, gap)
+    cells = surface_cells(offsets.astype(np.float32), bits, 0, 0, len(offsets))
+    return link_chains(*cells, len(offsets), tolerance, gap)
 
 
 def _rows(*runs, nv=60, nu=40):

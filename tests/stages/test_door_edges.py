@@ -10,6 +10,7 @@ import pytest
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, Facing, LayoutPlane, ManhattanFrame
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages import doors
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures
 from floorplan_core.stages.doors import Candidate, merge_faces
@@ -119,3 +120,15 @@ def test_the_gap_in_the_line_of_a_wall_that_stands_elsewhere_is_none():
         [ONE, behind], (PLANES[0], far[1]), DoorsConfig()
     )  # but it adds to one that is none
     assert both.door.planes == ("p1", "p2")
+
+
+def test_openings_of_a_large_site_are_merged_as_if_each_were_compared_with_all(monkeypatch):
+    rng, found = np.random.default_rng(4), []
+    for _ in range(300):
+        axis, start = int(rng.integers(2)), float(rng.uniform(0, 4))
+        door = Door("", (f"p{rng.integers(1, 3)}",), axis, float(rng.uniform(-8, 8)), start, start + 0.9)
+        found.append(Candidate(door, DoorMeasures(*(float(v) for v in rng.random(9)))))
+    merged = merge_faces(found, PLANES, DoorsConfig())
+    monkeypatch.setattr(doors, "_LANE", 1e9)
+    assert merge_faces(found, PLANES, DoorsConfig()) == merged
+    assert 50 < len(merged) < 250
