@@ -82,10 +82,11 @@ MARKS = {"en": str.maketrans({}), "de": str.maketrans(".,", ",.")}
 
 @dataclass(frozen=True)
 class DrawingStyle:
-    """The measures and the language of a drawing."""
+    """The measures and the language of a drawing, and what it is called."""
 
     units: str = "metric"  # of SYSTEMS
     language: str = "en"  # of LANGUAGES
+    title: str = ""  # "" is the name of the input
 
     def __post_init__(self) -> None:
         if self.units not in SYSTEMS:

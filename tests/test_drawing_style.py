@@ -99,6 +99,14 @@ def test_only_exporters_of_words_have_a_style(tmp_path: Path) -> None:
     assert (tmp_path / "plan.svg").read_bytes() == (tmp_path / "other.svg").read_bytes()
 
 
+def test_a_drawing_is_called_as_asked(tmp_path: Path) -> None:
+    style = DrawingStyle(title="Rose & Son, ground floor")
+    SvgExporter(style).write(small_flat(), tmp_path / "plan.svg")
+    text = (tmp_path / "plan.svg").read_text(encoding="utf-8")
+    assert ">Rose &amp; Son, ground floor</text>" in text
+    assert small_flat().source not in text
+
+
 def test_pictures_have_a_style_too() -> None:
     plan = l_corridor()
     plain, german = plan_image(plan), plan_image(plan, style=GERMAN)

@@ -88,12 +88,14 @@ def export(
     suffix: str = ".svg",
     units: str = "metric",
     language: str = "en",
+    title: str = "",
 ) -> None:
     """Write the plan in the format that the file's suffix names; a job, as large plans take their time.
 
     :param suffix: the format that is offered where no path is given.
     :param units: of drawings and pictures: metric or imperial.
     :param language: of their words: en or de.
+    :param title: what they are called; the survey's name where none is given.
     """
     from floorplan_core.drawing_style import DrawingStyle, in_style
     from floorplan_core.files import output_file
@@ -106,7 +108,7 @@ def export(
         workbench.ui.show("export", suffix=suffix)
         return
     target, plan = Path(path), workbench.plan
-    exporter = in_style(default_registry().exporter(target), DrawingStyle(units, language))
+    exporter = in_style(default_registry().exporter(target), DrawingStyle(units, language, title))
 
     def work(observer: Observer) -> None:
         observer.stage_started("export")

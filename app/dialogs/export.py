@@ -1,4 +1,4 @@
-"""The plan into a file: its format, and the units and language of formats that have words in them."""
+"""The plan into a file: its format, and of formats with words in them the title, units and language."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QLocale
-from PySide6.QtWidgets import QComboBox, QFormLayout
+from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit
 
 from floorcast_app.dialogs.base import Dialog
 from floorcast_app.panels.base import GRID, label
@@ -37,6 +37,8 @@ class ExportDialog(Dialog):
             self.units.addItem(tr(text), value)
         for value, text in LANGUAGES.items():
             self.language.addItem(text, value)
+        self.title = QLineEdit()
+        self.title.setPlaceholderText(window.workbench.plan.source if window.workbench.plan else "")
         self.about, self.note = label("", "small", wrap=True), label("", "small", wrap=True)
         self._fill()
         self.save = self.add_button(tr("Export…"), primary=True)
@@ -60,6 +62,8 @@ class ExportDialog(Dialog):
         if path is None:
             return
         style = {"units": self.units.currentData(), "language": self.language.currentData()}
+        if title := self.title.text().strip():
+            style["title"] = title
         self._workbench.try_run("file.export", path=path, **style)
         self.accept()
 
@@ -71,6 +75,7 @@ class ExportDialog(Dialog):
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         form.addRow(tr("Format"), self.format)
         form.addRow("", self.about)
+        form.addRow(tr("Title"), self.title)
         form.addRow(tr("Lengths"), self.units)
         form.addRow(tr("Language"), self.language)
         form.addRow("", self.note)
@@ -88,7 +93,7 @@ class ExportDialog(Dialog):
             if styled
             else tr("This format has metres and English words for every reader.")
         )
-        for box in (self.units, self.language):
+        for box in (self.title, self.units, self.language):
             box.setEnabled(styled)
 
 

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from floorplan_core.cli.console import Console
-from floorplan_core.cli.options import DebugFlag, DrawingLanguage, DrawingUnits, JsonFlag, QuietFlag
+from floorplan_core.cli.options import (
+    DebugFlag,
+    DrawingLanguage,
+    DrawingTitle,
+    DrawingUnits,
+    JsonFlag,
+    QuietFlag,
+)
 
 if TYPE_CHECKING:
     from floorplan_core.model import FloorPlan
@@ -29,6 +36,7 @@ def export(
     ] = None,
     units: DrawingUnits = "metric",
     language: DrawingLanguage = "en",
+    title: DrawingTitle = "",
     as_json: JsonFlag = False,
     quiet: QuietFlag = False,
     debug: DebugFlag = False,
@@ -39,7 +47,7 @@ def export(
     from floorplan_core.plugins import default_registry
 
     console = Console(context, as_json=as_json, quiet=quiet)
-    style = DrawingStyle(units, language)
+    style = DrawingStyle(units, language, title)
     exporters = [(path, in_style(default_registry().exporter(path, format_), style)) for path in to]
     saved = load_plan(plan)
     for path, exporter in exporters:

@@ -56,6 +56,15 @@ DrawingUnits = Annotated[
 DrawingLanguage = Annotated[
     str, typer.Option("--language", metavar="en|de", help="Of the words in drawings and pictures.")
 ]
+DrawingTitle = Annotated[
+    str,
+    typer.Option(
+        "--title",
+        metavar="TEXT",
+        help="What drawings are called; default: the input's name.",
+        show_default=False,
+    ),
+]
 OutFolder = Annotated[
     Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the results.", show_default=False)
 ]

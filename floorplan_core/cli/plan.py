@@ -19,6 +19,7 @@ from floorplan_core.cli.options import (
     ConfigFile,
     DebugFlag,
     DrawingLanguage,
+    DrawingTitle,
     DrawingUnits,
     JsonFlag,
     OutFolder,
@@ -66,6 +67,7 @@ def plan(
     ] = None,
     units: DrawingUnits = "metric",
     language: DrawingLanguage = "en",
+    title: DrawingTitle = "",
     config: ConfigFile = None,
     set_: Assignments = None,
     as_json: JsonFlag = False,
@@ -79,7 +81,7 @@ def plan(
     started = perf_counter()
     console = Console(context, as_json=as_json, quiet=quiet)
     stages = stages_of(_only(survey)) if from_stage else None
-    settings, style = resolve_config(config, set_, stages), DrawingStyle(units, language)
+    settings, style = resolve_config(config, set_, stages), DrawingStyle(units, language, title)
     names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
         if from_stage and stages:

@@ -196,7 +196,7 @@ class _Drawing:
         share = 100 * unseen / area if area else 0.0
         say, units = self.style.say, "Dimensions in feet and inches, drawn in metres"
         return [
-            (say("Floor plan of {}", plan.source), TITLE),
+            (say("Floor plan of {}", self.style.title or plan.source), TITLE),
             (
                 say(
                     "Net area to the inside of walls {}, {} % of it predicted, not seen",

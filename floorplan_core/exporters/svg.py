@@ -84,7 +84,7 @@ def drawn_bounds(plan: FloorPlan, walls: Poche) -> tuple[float, float, float, fl
 
 def _head(sheet: Sheet, plan: FloorPlan, style: DrawingStyle) -> str:
     canvas = SvgCanvas()
-    canvas.title(style.say("Floor plan of {}, {}", plan.source, sheet.scale_text))
+    canvas.title(style.say("Floor plan of {}, {}", style.title or plan.source, sheet.scale_text))
     w, h = number(sheet.width), number(sheet.height)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'

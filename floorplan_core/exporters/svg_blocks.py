@@ -52,9 +52,10 @@ def _draw_title(
 ) -> None:
     with canvas.group(id="title-block"):
         _draw_rule(canvas, sheet, 0, x, y)
-        size = _fitting(plan.source, TITLE, _width(sheet, 0) / BOLD)
+        title = style.title or plan.source
+        size = _fitting(title, TITLE, _width(sheet, 0) / BOLD)
         canvas.text(style.say("Floor plan"), x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
-        canvas.text(plan.source, x, y + 11.2, size, font_weight="600")
+        canvas.text(title, x, y + 11.2, size, font_weight="600")
         for i, text in enumerate(title_lines(sheet, plan, style)):
             fitting = _fitting(text, BODY, _width(sheet, 0))
             canvas.text(text, x, y + 16.4 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)

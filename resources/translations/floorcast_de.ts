@@ -3508,6 +3508,10 @@
    <translation>Zeitleiste</translation>
   </message>
   <message>
+   <source>Title</source>
+   <translation>Titel</translation>
+  </message>
+  <message>
    <source>To</source>
    <translation>Bis</translation>
   </message>

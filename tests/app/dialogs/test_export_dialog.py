@@ -56,12 +56,13 @@ def test_what_is_chosen_is_written(
     monkeypatch.setattr(window.workbench.ui, "ask_save", lambda *a: tmp_path / "plan.svg")
     window.workbench.run("file.export")
     dialog = dialog_of(window)
+    qtbot.keyClicks(dialog.title, "Rosenhof")
     dialog.units.setCurrentIndex(dialog.units.findData("imperial"))
     dialog.language.setCurrentIndex(dialog.language.findData("de"))
     qtbot.mouseClick(dialog.save, LEFT)
     qtbot.waitUntil(lambda: not window.workbench.jobs.running)
     text = (tmp_path / "plan.svg").read_text(encoding="utf-8")
-    assert "Grundriss" in text
+    assert "Grundriss von Rosenhof" in text
     assert re.search(r"\d+' \d", text)
 
 
