@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 
 from floorplan_core.config import RegionsConfig
 from floorplan_core.geometry.raster import polygon_window
-from floorplan_core.geometry.rectilinear import open_polygon, polygons_of, union_boxes, without_slits
+from floorplan_core.geometry.rectilinear import (
+    close_polygon,
+    open_polygon,
+    polygons_of,
+    union_boxes,
+    without_slits,
+)
 from floorplan_core.model import (
     Door,
     LayoutPlane,
@@ -78,6 +84,8 @@ def build_regions(
     apart = _disjoint(pieces, grid, config.sliver)
     grower = RoomGrower(planes, walls, doors, grid, config.wall_support)
     grown = grower.grow_all([shape for shape, _ in apart])
+    if any(plane.by_hand for plane in planes):  # both sides of a wall in the open went to where it was put
+        grown = [close_polygon(shape, _SLIT) for shape in grown]
     whole = [  # a room that grew may have grown past the end of a wall
         (shapely.orient_polygons(part), rows)
         for shape, (_, rows) in zip(grown, apart, strict=True)

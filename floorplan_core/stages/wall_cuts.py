@@ -18,7 +18,7 @@ from floorplan_core.model import LayoutPlane
 Float = NDArray[np.float64]
 
 _DEEP = 0.2  # m from the sides of a region, from which a wall lies in its interior
-_SHORTEST = 0.3  # m of wall that is worth a cut
+_SHORTEST = 0.3 - 1e-6  # m of wall that is worth a cut; runs are made of tenths
 _STANDS = 0.35  # of the height below 2 m that must have been seen for a wall that stands
 _HALF = 0.05  # m on each side of a seen face
 

@@ -13,9 +13,11 @@ import pytest
 
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import UsageError
+from floorplan_core.model.corrections import MovePlane, PlaneAt
 from tests.app.pump import make_workbench, settle
 from tests.app.random_actions import play
 from tests.app.surveys import write_campus, write_storeys, write_wing
+from tests.plan_invariants import assert_valid
 
 SEEDS = [int(seed) for seed in os.environ.get("FLOORCAST_SEEDS", "20240607").split(",")]
 WORLDS: dict[str, Callable[[Path], Path]] = {
@@ -54,3 +56,16 @@ def test_random_actions_elsewhere(elsewhere: Workbench, seed: int) -> None:
 def test_history_has_ends(sample_workbench: Workbench, position: int) -> None:
     with pytest.raises(UsageError, match="no step"):
         sample_workbench.run("edit.history", position=position)
+
+
+def test_a_wall_moved_far_into_rooms_leaves_them_whole(sample_workbench: Workbench) -> None:
+    """Both sides of a wall that ends in the open go to where it was put, and left a slit of no width."""
+    at, to = (6.611180, 2.865333), (7.570131, 0.658936)
+    wall = MovePlane(PlaneAt(at, (-0.398603, 0.917124)), to)
+    before = sample_workbench.plan.regions
+    sample_workbench.change("Move a wall", corrections=(wall,))
+    settle(sample_workbench)
+    assert_valid(sample_workbench.plan)
+    assert len(sample_workbench.plan.regions) > len(before)
+    sample_workbench.run("edit.undo")
+    settle(sample_workbench)
