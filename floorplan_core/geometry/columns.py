@@ -81,12 +81,17 @@ def popcount(value):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def hit_columns(xyz, origin, cell, out):  # type: ignore[no-untyped-def]
-    """Set the bits of ``out`` (ny, nx): levels in which any of the (N, 3) points (z above the floor) lies."""
+def hit_columns(xyz, origin, cell, out, below=0.0):  # type: ignore[no-untyped-def]
+    """Set the bits of ``out`` (ny, nx): levels in which any of the (N, 3) points (z above the floor) lies.
+
+    What lies less than ``below`` metres under the floor is of its level.
+    """
     ny, nx = out.shape
     for i in range(len(xyz)):
         ix, iy = int(np.floor((xyz[i, 0] - origin[0]) / cell)), int(np.floor((xyz[i, 1] - origin[1]) / cell))
         k = int(np.floor(xyz[i, 2] / LEVEL))
+        if k < 0 and xyz[i, 2] > -below:
+            k = 0
         if 0 <= ix < nx and 0 <= iy < ny and 0 <= k < LEVELS:
             out[iy, ix] |= np.uint64(1) << np.uint64(k)
 

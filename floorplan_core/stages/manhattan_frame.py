@@ -23,6 +23,7 @@ from floorplan_core.geometry.level_frame import rotation_to_z
 from floorplan_core.geometry.surfel_map import Surfels
 from floorplan_core.model import ManhattanFrame
 from floorplan_core.stages.sharpest_yaw import rough_yaw, sharpest_yaw, wrap
+from floorplan_core.stages.slab_faces import inner_faces
 
 Float = NDArray[np.float64]
 
@@ -71,7 +72,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig, voxel: float = 0.0) ->
             "lower it."
         )
     rotation = turned_by(-yaw) @ level
-    floor, ceiling = floor_and_ceiling(surfels, normals, rotation)
+    floor, ceiling = inner_faces(surfels, rotation, *floor_and_ceiling(surfels, normals, rotation))
     tilt = math.acos(float(np.clip(up[2], -1, 1)))
     askew = _other(angle - yaw, weight, config)[1]
     return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling, askew)

@@ -27,6 +27,7 @@ from floorplan_core.model import ManhattanFrame
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.storey import HeightMap, Storey
 from floorplan_core.stages.manhattan_frame import floor_and_ceiling
+from floorplan_core.stages.slab_faces import inner_faces
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -159,7 +160,8 @@ def _with_levels(storey: Storey, surfels: Surfels, inside: Mask, frame: Manhatta
         view=surfels.view[inside],
     )
     normals = fit_cell_normals(part.centroid, _PATCH, _PLANARITY)
-    floor, ceiling = floor_and_ceiling(part, normals, frame.rotation)
+    levels = floor_and_ceiling(part, normals, frame.rotation)
+    floor, ceiling = inner_faces(part, frame.rotation, *levels)
     return replace(storey, floor_z=floor, ceiling_z=ceiling)
 
 

@@ -55,6 +55,14 @@ def test_hit_columns_against_plain_python():
     assert np.array_equal(found, expected)
 
 
+def test_what_lies_just_below_the_floor_is_of_its_level():
+    xyz = np.array([(0.5 * CELL, 0.01, -0.001), (1.5 * CELL, 0.01, -0.02), (2.5 * CELL, 0.01, 0.15)])
+    for below, expected in ((0.0, [0, 0, 2]), (0.01, [1, 0, 2])):
+        found = np.zeros((1, 3), dtype=np.uint64)
+        hit_columns(xyz, np.zeros(2), CELL, found, below)
+        assert found[0].tolist() == expected
+
+
 def _wall(offset: float, facing: float, slope: float = 0.0, rows: int = 40, seed: int = 0):
     """Points of a wall across u, at ``offset`` and turned by ``slope``, seen from the side of ``facing``."""
     rng = np.random.default_rng(seed)

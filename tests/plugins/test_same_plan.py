@@ -120,7 +120,6 @@ def test_meshes(from_mesh, kind):
     assert_same(from_mesh[kind], from_mesh["ply"], MILLIMETRE)
 
 
-@pytest.mark.xfail(strict=True, reason="right on b8c1af7, wrong since a later rebase (seen on a28ca1e)")
 @pytest.mark.parametrize("kind", ["obj", "stl"])
 def test_the_inner_faces_of_closed_solids_bound_the_rooms(tmp_path, kind):
     plan_of(write_mesh(tmp_path / f"a.{kind}", solid_mesh()))
