@@ -49,7 +49,8 @@ def find_layers(values: Float) -> Layers:
     positions = np.array([_centre(centres, counts, p) for p in peaks])
     outside = 0.0
     if len(peaks):
-        below, above = counts[: max(0, peaks[0] - 3)].sum(), counts[peaks[-1] + 4 :].sum()
+        first, last = _outer_faces(triple, peaks)
+        below, above = counts[: max(0, first - 3)].sum(), counts[last + 4 :].sum()
         outside = float((below + above) / len(values))
     return Layers(positions, triple[peaks] / len(values), low, high, outside)
 
@@ -65,6 +66,15 @@ def _peaks(triple: Float) -> list[int]:
         if all(abs(bin_ - other) >= MIN_GAP * BINS for other in chosen):
             chosen.append(bin_)
     return sorted(chosen)
+
+
+def _outer_faces(triple: Float, peaks: list[int]) -> tuple[int, int]:
+    """First and last bin of the outermost layers: models of closed solids have both faces of a slab."""
+    gap, least = int(MIN_GAP * BINS), SIGNIFICANT * triple[peaks].max()
+    first, last = max(0, peaks[0] - gap), min(BINS, peaks[-1] + gap + 1)
+    contrast = CONTRAST * float(np.median(triple))
+    strong = first + np.flatnonzero(triple[first:last] >= max(least, contrast))
+    return int(strong[0]), int(strong[-1])
 
 
 def _centre(centres: Float, counts: Float, peak: int) -> float:

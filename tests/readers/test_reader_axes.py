@@ -130,6 +130,33 @@ def test_precision_that_the_file_has_lost_is_said(tmp_path):
     assert any("resolves only 0.5 m" in text for text in open_survey(path).assumptions)
 
 
+@pytest.mark.parametrize("up", ["y", "z"])
+def test_slabs_of_closed_solids_have_two_faces(up):
+    """The outer ones are not beyond floor and ceiling: they are of them."""
+    rng = np.random.default_rng(4)
+    low, high, t = np.zeros(3), np.array([8.1, 5.0, 2.6]), 0.2
+    slabs = [((-t, -t, z), (8.3, 5.2, z + t)) for z in (-t, 2.6)]
+    sides = [((-t, -t, 0), (0, 5.2, 2.6)), ((8.1, -t, 0), (8.3, 5.2, 2.6))]
+    sides += [((0, -t, 0), (8.1, 0, 2.6)), ((0, 5.0, 0), (8.1, 5.2, 2.6)), ((4.0, 0, 0), (4.1, 5.0, 2.6))]
+    points = np.concatenate([on_box(np.array(a), np.array(b), rng) for a, b in slabs + sides])
+    assert ((points.min(axis=0) < low) & (points.max(axis=0) > high)).all()
+    guess = guess_axes(points @ up_rotation(up), None, "auto", "auto")
+    assert (guess.up, guess.unit) == (up, "m")
+
+
+def on_box(low, high, rng):
+    """(N, 3) points spread evenly over the surface of a box, 100 a square metre."""
+    size = high - low
+    faces = []
+    for axis in range(3):
+        area = np.prod(np.delete(size, axis))
+        for side in (low, high):
+            face = rng.uniform(low, high, (int(100 * area), 3))
+            face[:, axis] = side[axis]
+            faces.append(face)
+    return np.concatenate(faces)
+
+
 def test_layers_of_two_storeys():
     rng = np.random.default_rng(17)
     heights = np.repeat([0.0, 2.6, 2.9, 5.5], 4000) + rng.normal(0, 0.01, 16000)
