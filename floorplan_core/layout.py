@@ -39,6 +39,7 @@ from floorplan_core.stages.occupancy import slice_map
 from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
+from floorplan_core.stages.slanted_walls import standing_cells
 from floorplan_core.stages.speculation import cover_the_rest, for_site
 from floorplan_core.stages.stairs import apart_from_stairs, find_flights, openings
 from floorplan_core.stages.wall_lines import bridge_lines
@@ -128,10 +129,11 @@ def lay_out(
     )
     doors = (*doors, *feet)
     found = (planes, segments, doors, grid)
+    tall = stage.correct("standing", lambda: standing_cells(evidence, grid), evidence, grid)
     regions = stage(
         "regions",
-        lambda: build_regions(cover, *found, config.regions, flights, evidence.inferred),
-        *(cover, *found, config.regions, flights, evidence.inferred),
+        lambda: build_regions(cover, *found, config.regions, flights, evidence.inferred, tall),
+        *(cover, *found, config.regions, flights, evidence.inferred, tall),
     )
     regions, planes, remarks = stage.correct(
         "shapes",

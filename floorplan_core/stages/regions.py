@@ -39,6 +39,7 @@ from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
+from floorplan_core.stages.slanted_walls import StandingCells
 from floorplan_core.stages.stairs import Flight, part_flights
 from floorplan_core.stages.wall_cuts import cut_walls, standing_walls
 from floorplan_core.stages.wall_extensions import WallExtender
@@ -59,11 +60,13 @@ def build_regions(
     config: RegionsConfig,
     flights: Sequence[Flight] = (),
     inferred: bool = False,
+    tall: StandingCells | None = None,
 ) -> tuple[Region, ...]:
     """The regions in reading order (top to bottom, left to right), without label or turning distance.
 
     :param flights: of stairs, each a region of its own.
     :param inferred: True where free space was not seen, but inferred from floor and ceiling.
+    :param tall: where something stands as high as a wall: what it hides behind it at a slant is no floor.
     """
     groups = connected_groups(cover.bounds, separators(planes, doors))
     standing = standing_walls(planes, config.wall_support)
@@ -87,17 +90,41 @@ def build_regions(
     if any(plane.by_hand for plane in planes):  # both sides of a wall in the open went to where it was put
         grown = [close_polygon(shape, _SLIT) for shape in grown]
     whole = [  # a room that grew may have grown past the end of a wall
-        (shapely.orient_polygons(part), rows)
+        (shapely.orient_polygons(part), rows, steps)
         for shape, (_, rows) in zip(grown, apart, strict=True)
-        for part in polygons_of(cut_walls(shape, standing))
+        for bounded, steps in (_bounded(cut_walls(shape, standing), tall, config.sliver),)
+        for part in polygons_of(bounded)
     ]
     regions = [
-        region_of(polygon, rows, grower.sides.of(polygon), *count_cells(polygon, grid))
-        for polygon, rows in whole
+        region_of(polygon, rows, _seen(grower.sides.of(polygon), steps), *count_cells(polygon, grid))
+        for polygon, rows, steps in whole
     ]
     kept = [r for r in regions if _acceptable(r, config)]
     kept.sort(key=_reading_order)
     return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(kept))
+
+
+def _bounded(shape: Any, tall: StandingCells | None, sliver: float) -> tuple[Any, StandingCells | None]:
+    """The shape without what lies behind walls on no plane of the frame, and what tells its new sides.
+
+    The shape itself, and None, where there are no such walls.
+    """
+    if tall is None:
+        return shape, None
+    parts = polygons_of(shape)
+    cut = [tall.cut(part, sliver) for part in parts]
+    if all(a is b for a, b in zip(cut, parts, strict=True)):
+        return shape, None
+    return shapely.union_all(cut), tall
+
+
+def _seen(sides: tuple[RegionSide, ...], tall: StandingCells | None) -> tuple[RegionSide, ...]:
+    """The sides; those that no plane explains were seen where something stands along them."""
+    if tall is None:
+        return sides
+    return tuple(
+        s if s.plane else replace(s, observed=max(s.observed, tall.along(s.start, s.end))) for s in sides
+    )
 
 
 def _union(bounds: Float, bridges: Float) -> Any:
