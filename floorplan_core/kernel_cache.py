@@ -20,6 +20,7 @@ from typing import Any
 _HOMES = ("geometry", "stages", "readers", "simulation")  # the packages that hold kernels
 _OF_SURVEYS = ("geometry", "stages")  # those of them that every survey uses
 _KEPT = 3  # folders of earlier states that stay
+_waiting: list[Any] = []  # the listener that numba has, for it does not say
 
 
 def use_kernel_cache() -> None:
@@ -94,8 +95,14 @@ def compilations(tell: Callable[[int], None]) -> Iterator[None]:
 
 
 def on_first_compilation(tell: Callable[[], None]) -> None:
-    """Call ``tell`` once, when a kernel is first compiled, not read from the cache; perhaps from a thread."""
+    """Call ``tell`` once, when a kernel is first compiled, not read from the cache; perhaps from a thread.
+
+    Who asked before is told no more: of several commands in one process only the one that runs.
+    """
     from numba.core import event
+
+    while _waiting:
+        event.unregister("numba:compile", _waiting.pop())
 
     class First(event.Listener):  # type: ignore[misc]  # numba has no types
         told = False
@@ -108,7 +115,8 @@ def on_first_compilation(tell: Callable[[], None]) -> None:
         def on_end(self, event: object) -> None:
             pass
 
-    event.register("numba:compile", First())
+    _waiting.append(First())
+    event.register("numba:compile", _waiting[0])
 
 
 def import_numba() -> None:

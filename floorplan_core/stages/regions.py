@@ -46,6 +46,7 @@ from floorplan_core.stages.wall_extensions import WallExtender
 
 Float = NDArray[np.float64]
 
+_DEEP = 0.1  # m around a notch: less of it is the corner of a wall
 _SLIT = 0.02  # m: a narrower hole in a region is the jitter of planes that should have met
 
 _PROBES = (0.15, 0.3, 0.5)  # m from the wall's face, where the region behind a door is looked for
@@ -88,7 +89,7 @@ def build_regions(
     grower = RoomGrower(planes, walls, doors, grid, config.wall_support)
     grown = grower.grow_all([shape for shape, _ in apart])
     if any(plane.by_hand for plane in planes):  # both sides of a wall in the open went to where it was put
-        grown = [close_polygon(shape, _SLIT) for shape in grown]
+        grown = [_without_notches(shape) for shape in grown]
     whole = [  # a room that grew may have grown past the end of a wall
         (shapely.orient_polygons(part), rows, steps)
         for shape, (_, rows) in zip(grown, apart, strict=True)
@@ -125,6 +126,12 @@ def _seen(sides: tuple[RegionSide, ...], tall: StandingCells | None) -> tuple[Re
     return tuple(
         s if s.plane else replace(s, observed=max(s.observed, tall.along(s.start, s.end))) for s in sides
     )
+
+
+def _without_notches(shape: Any) -> Any:
+    """The shape without what goes deep into it and is narrower than a slit; itself where nothing does."""
+    closed = close_polygon(shape, _SLIT)
+    return closed if shape.length - closed.length > _DEEP else shape
 
 
 def _union(bounds: Float, bridges: Float) -> Any:

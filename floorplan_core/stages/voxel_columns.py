@@ -137,7 +137,10 @@ def _free_between_floor_and_ceiling(surface: NDArray[np.uint64], frame: Manhatta
 
 
 def _inside_walls(surface: NDArray[np.uint64]) -> NDArray[np.bool_]:
-    """(ny, nx) True between two faces that stand from floor to head: a model of solids has both of a wall."""
+    """(ny, nx) True between two faces that stand from floor to head: a model of solids has both of a wall.
+
+    Not on a face itself, beside which it goes on both ways: what is free above a cabinet's front is free.
+    """
     full = count_bits(surface & _STANDING) >= _FULL * count_bits(np.array([_STANDING]))
     inside = np.zeros_like(full)
     for faces, out in ((full, inside), (full.T, inside.T)):
@@ -146,7 +149,7 @@ def _inside_walls(surface: NDArray[np.uint64]) -> NDArray[np.bool_]:
             before[:, step:] |= faces[:, :-step]
             behind[:, :-step] |= faces[:, step:]
         out |= before & behind
-    return inside
+    return inside & ~full
 
 
 @njit(cache=True, nogil=True)

@@ -3068,10 +3068,6 @@
    <translation>Der Ordner {0} sieht aus wie {1}, enthält aber keine Tiefenbilder.</translation>
   </message>
   <message>
-   <source>The free space of {0} points</source>
-   <translation>Der freie Raum von {0} Punkten</translation>
-  </message>
-  <message>
    <source>The given trajectory places the scans by their times.</source>
    <translation>Die angegebene Trajektorie ordnet die Scans nach ihren Zeiten ein.</translation>
   </message>
