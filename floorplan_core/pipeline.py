@@ -182,7 +182,7 @@ class FloorPlanner:
             source=self.source,
             point_count=int(evidence.count.sum()) if self._is_one_of_many() else self.map.surfels.points,
             config=config,
-            warnings=self._warnings(cover, grid, said, "" if wings else misfit(frame)),
+            warnings=self._warnings(cover, grid, said if wings else said + Remarks(warnings=misfit(frame))),
             seconds=stage.seconds,
             storey=storey,
             corrected=by_hand((*planes, *(p for w in wings for p in w.planes)), doors, regions),
@@ -273,8 +273,7 @@ class FloorPlanner:
         self, surfels: SurfelMap, each: float, fixed: float, what: str, columns: float = 0.0
     ) -> None:
         """Surfels go to disk where memory has no place for what is made of them, ``each`` bytes of a surfel,
-        ``fixed`` ones and those of the ``columns``, which go too; :class:`NoPlanError` if that is too little.
-        """
+        ``fixed`` ones, and the ``columns``, which go too; :class:`NoPlanError` if that is too little."""
         needed = each * len(surfels) + fixed
         if not fits(needed + (0 if surfels.on_disk else EVIDENCE_SURFEL * len(surfels) + columns)):
             surfels.leave_memory()
@@ -328,11 +327,9 @@ class FloorPlanner:
             )
         return regions
 
-    def _warnings(
-        self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks, misfits: str
-    ) -> tuple[str, ...]:
+    def _warnings(self, cover: RectangleCover, grid: OccupancyGrid, said: Remarks) -> tuple[str, ...]:
         """What the user should know about this plan; told to the observer too."""
-        warnings = [*said.warnings, misfits] if misfits else list(said.warnings)
+        warnings = list(said.warnings)
         if self.map.planar:
             warnings.append(
                 "A planar scan: walls and furniture alike are taken to reach from floor to ceiling."

@@ -166,10 +166,11 @@ def _manhattan(found: SurveyInfo) -> str:
             "a wing, where rooms follow it, is planned in a frame of its own"
         )
     )
-    doubt = misfit(found.frame) if other is None else ""
+    doubt = misfit(found.frame) if other is None else ()
     return (
         f"{facts['support']:.0%} of {facts['wall_area_m2']:.0f} m2 of wall within 5 degrees of the frame "
-        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}" + (doubt and f"\n{doubt}")
+        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}"
+        + "".join(f"\n{sentence}" for sentence in doubt)
     )
 
 

@@ -118,14 +118,14 @@ def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) 
     return replace(frame, rotation=rotation, yaw=yaw, tilt=tilt)
 
 
-def misfit(frame: ManhattanFrame) -> str:
-    """What a user should know of a frame that many walls do not follow; "" where most do."""
+def misfit(frame: ManhattanFrame) -> tuple[str, ...]:
+    """What a user should know of a frame that many walls do not follow; nothing where most do."""
     if frame.support >= _POOR:
-        return ""
+        return ()
     return (
         f"Only {frame.support:.0%} of the wall surface fits the two directions of the plan: round walls and "
         "walls at other angles come out as steps or are missing (thick noise lowers the share, too); compare "
-        "the planes with the plan, and force another direction with --set frame.yaw_deg=... if it is wrong."
+        "the planes with the plan, and force another direction with --set frame.yaw_deg=... if it is wrong.",
     )
 
 

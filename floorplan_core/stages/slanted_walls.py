@@ -38,6 +38,7 @@ _LINE = 0.8  # of the variance about a cell, by which that along a line is large
 _AROUND = 0.5  # m about a cell, in which its neighbours tell its direction
 _SLANT = 0.17  # rad from the axes: less is a wall of the frame
 _ANGLED = 0.5  # of what stands on the border must run at an angle
+_AT_ONCE = 500  # places looked at together
 _LEAST = 0.3  # m2 of a pocket
 _STEP = 3  # cells of a step along the wall
 
@@ -120,19 +121,26 @@ def _behind(stands: Bool, inside: Bool, free: Bool, cell: float) -> Bool:
 
 def _is_slanted(at: Float) -> bool:
     """True where most of the places (N, 2) are in lines at an angle to the axes, and far enough apart."""
-    near = ((at[:, None] - at[None]) ** 2).sum(axis=2) <= _AROUND**2
+    parts = np.array_split(at, len(at) // _AT_ONCE + 1)
+    angled = np.concatenate([_are_angled(part, at) for part in parts])
+    if angled.mean() < _ANGLED:
+        return False
+    extent = np.ptp(at[angled], axis=0)
+    return bool(np.hypot(*extent) >= _LONG and extent.min() >= _DEEP)
+
+
+def _are_angled(part: Float, at: Float) -> Bool:
+    """(M,) of some of the places: do those around each lie in a line at an angle to the axes."""
+    near = ((part[:, None] - at[None]) ** 2).sum(axis=2) <= _AROUND**2
     count = near.sum(axis=1)
     mean = near @ at / count[:, None]
     square = near @ (at[:, :, None] * at[:, None]).reshape(-1, 4) / count[:, None]
     c = square - (mean[:, :, None] * mean[:, None]).reshape(-1, 4)
     turn = 0.5 * np.arctan2(2 * c[:, 1], c[:, 0] - c[:, 3])
     whole, apart = c[:, 0] + c[:, 3], np.hypot(c[:, 0] - c[:, 3], 2 * c[:, 1])  # of its variances
-    angled = np.abs((turn + np.pi / 4) % (np.pi / 2) - np.pi / 4) > _SLANT
-    angled &= apart > _LINE * whole  # no line: the end of a straight front, which turns to the wall
-    if angled.mean() < _ANGLED:
-        return False
-    extent = np.ptp(at[angled], axis=0)
-    return bool(np.hypot(*extent) >= _LONG and extent.min() >= _DEEP)
+    slanted = np.abs((turn + np.pi / 4) % (np.pi / 2) - np.pi / 4) > _SLANT
+    # No line: the end of a straight front, which turns to the wall.
+    return np.asarray(slanted & (apart > _LINE * whole))
 
 
 def _steps(behind: Bool, inside: Bool) -> NDArray[np.int64]:

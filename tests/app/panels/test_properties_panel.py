@@ -7,7 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QToolButton
 from pytestqt.qtbot import QtBot
 
-from floorcast_app.panels.facts import EVIDENCE, Fact, _regions, portrait
+from floorcast_app.panels.evidence_words import EVIDENCE
+from floorcast_app.panels.facts import Fact, _regions, portrait
 from floorcast_app.panels.properties_panel import Link, PropertiesPanel
 from floorcast_app.selection import Item
 from floorcast_app.workbench import Workbench
