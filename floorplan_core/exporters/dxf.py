@@ -173,9 +173,9 @@ class _Drawing:
         """The clear lengths along each side of the building, and the overall ones beyond them."""
         if not self.plan.regions:
             return
-        bounds = shapely.total_bounds([r.polygon for r in self.plan.regions])
+        bounds = self.plan.bounds
         for axis, sign in SIDES:
-            across = float(bounds[axis + 2 * (sign > 0)])
+            across = bounds[axis + 2 * (sign > 0)]
             for span in chain(self.plan.regions, axis, sign):
                 self._dimension(span, axis, across + sign * ROW)
             if sign > 0:
@@ -184,7 +184,7 @@ class _Drawing:
 
     def draw_title(self) -> None:
         """What it is, and how to read it; below the plan."""
-        x0, y0, _, _ = self._extent()
+        x0, y0, _, _ = self.plan.bounds
         for k, (text, height) in enumerate(self._title()):
             at = np.array([[x0, y0 - 3 * ROW - k * LINE * TITLE]])
             self._text(text, self._to_world(at)[0], height, "A-ANNO-TTLB")
@@ -213,11 +213,6 @@ class _Drawing:
                 NOTE,
             ),
         ]
-
-    def _extent(self) -> tuple[float, float, float, float]:
-        shapes = [r.polygon for r in self.plan.regions]
-        x0, y0, x1, y1 = shapely.total_bounds(shapes).tolist() if shapes else self.plan.grid.extent
-        return x0, y0, x1, y1
 
     def _to_world(self, points: Float) -> Float:
         return np.round(self.plan.to_world(points), 6) + 0.0

@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw
 from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.errors import UsageError
 from floorplan_core.exporters.png import INK, WHITE, occupancy_image, plan_image
-from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, face, fit_view, plan_bounds, save
+from floorplan_core.exporters.png_canvas import Bounds, View, draw_text, face, fit_view, save
 from floorplan_core.model import FloorPlan
 
 MUTED = (84, 96, 108)
@@ -60,10 +60,10 @@ def _views(plans: Sequence[FloorPlan]) -> list[View]:
     """The same view for all plans whose frame agrees with the last one's; others keep its size."""
     last = plans[-1]
     together = [p for p in plans if _agrees(p, last)]
-    bounds = np.array([plan_bounds(p) for p in together])
+    bounds = np.array([p.bounds for p in together])
     common = _tuple([*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0)])
     shared = fit_view(common, PANEL)
-    return [shared if _agrees(p, last) else _centred(plan_bounds(p), shared) for p in plans]
+    return [shared if _agrees(p, last) else _centred(p.bounds, shared) for p in plans]
 
 
 def _tuple(values: Sequence[float]) -> Bounds:

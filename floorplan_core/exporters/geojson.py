@@ -63,7 +63,7 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
     features = _regions(plan, polygons)
     features += [_door(plan, door) for door in plan.doors]
     planes = [plane for plane in plan.planes if plane.by_hand != "hidden"]
-    extent = plan_extent(plan)
+    extent = plan.bounds
     ends = [_clipped(plane, extent) for plane in planes] + [s.line() for s in plan.segments]
     lines = _lines(plan, ends)
     features += [_plane(plane, line) for plane, line in zip(planes, lines, strict=False)]
@@ -248,14 +248,6 @@ def _only_polygons(geometry: Any) -> NDArray[np.object_]:
     """The polygons of a geometry; points and lines, left over by clipping, are dropped."""
     parts = shapely.get_parts(geometry)
     return np.asarray(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
-
-
-def plan_extent(plan: FloorPlan) -> tuple[float, float, float, float]:
-    """x0, y0, x1, y1 of all regions (of the grid where there are none), metres, manhattan frame."""
-    if not plan.regions:
-        return plan.grid.extent
-    x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in plan.regions]).tolist()
-    return x0, y0, x1, y1
 
 
 def _feature(ident: str, geometry: Json, properties: Json) -> Json:

@@ -93,8 +93,7 @@ class _Model:
 
     def _near_origin(self) -> tuple[float, float, float]:
         """World metres of the site's origin: at the floor; if that is far, in whole metres near the plan."""
-        shapes = [region.polygon for region in self.plan.regions]
-        x0, y0, x1, y1 = shapely.total_bounds(shapes).tolist() if shapes else self.plan.grid.extent
+        x0, y0, x1, y1 = self.plan.bounds
         middle = np.array([[(x0 + x1) / 2, (y0 + y1) / 2]])
         x, y, z = (self.plan.frame.from_manhattan(middle) + self.plan.local_frame.shift)[0].tolist()
         far = max(abs(x), abs(y)) > FAR
@@ -121,7 +120,7 @@ class _Model:
         return global_id(self.plan.source, str(self.plan.storey), *names)
 
     def _style(self, name: str, colour: str, transparency: float = 0.0) -> Ref:
-        rgb = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        rgb = (part / 255 for part in palette.rgb(colour))
         shade = self.file.add(
             "IfcSurfaceStyleRendering",
             *(self.file.add("IfcColourRgb", None, *rgb), transparency, *[None] * 6, Word("NOTDEFINED")),

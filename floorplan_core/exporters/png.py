@@ -33,7 +33,6 @@ from floorplan_core.exporters.png_canvas import (
     finish,
     fit_view,
     paper,
-    plan_bounds,
     save,
 )
 from floorplan_core.exporters.walls import Opening, Poche, poche, predicted_cells
@@ -110,7 +109,7 @@ class PlanPngExporter(_Figure):
 
 def planes_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (a)."""
-    view = view or fit_view(plan_bounds(plan))
+    view = view or fit_view(plan.bounds)
     codes, colours = paper(view), (WHITE, RED_LINE, GREEN_LINE, DIM, RED, GREEN)
     shown = [p for p in plan.planes if p.by_hand != "hidden"]
     for plane in shown:
@@ -128,7 +127,7 @@ def planes_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle 
 
 def occupancy_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (b)."""
-    view = view or fit_view(plan_bounds(plan))
+    view = view or fit_view(plan.bounds)
     grid = plan.grid
     state = np.where(grid.states == FREE, 1, np.where(regions_mask(plan.regions, grid), 2, 0)).astype(
         np.uint8
@@ -144,7 +143,7 @@ def occupancy_image(plan: FloorPlan, view: View | None = None, style: DrawingSty
 
 def plan_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = PLAIN) -> Image.Image:
     """Figure (c)."""
-    view = view or fit_view(plan_bounds(plan))
+    view = view or fit_view(plan.bounds)
     walls = poche(plan)
     doors = [opening.polygon for opening in walls.openings]
     names = [_place_name(view, region, doors, style) for region in plan.regions]

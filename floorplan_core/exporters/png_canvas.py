@@ -20,7 +20,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from floorplan_core.drawing_style import PLAIN, DrawingStyle
 from floorplan_core.exporters.placement import LEADING, Placed, block_size
-from floorplan_core.model import FloorPlan
 
 Float = NDArray[np.float64]
 Colour = tuple[int, int, int]
@@ -83,14 +82,6 @@ class View:
         at = np.floor((start + (np.arange(pixels) + 0.5) / self.scale) / cell).astype(np.int64)
         inside: NDArray[np.int64] = np.clip(at + 1, 0, count + 1)
         return inside
-
-
-def plan_bounds(plan: FloorPlan) -> Bounds:
-    """x0, y0, x1, y1 of the regions, of the grid where there are none (metres, manhattan frame)."""
-    if not plan.regions:
-        return plan.grid.extent
-    x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in plan.regions]).tolist()
-    return x0, y0, x1, y1
 
 
 def fit_view(bounds: Bounds, long_side: int = LONG_SIDE) -> View:

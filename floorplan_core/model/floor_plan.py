@@ -71,6 +71,16 @@ class FloorPlan:
         """The segments with those of the wings, each in its own axes."""
         return (*self.segments, *(segment for wing in self.wings for segment in wing.segments))
 
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """x0, y0, x1, y1 of the regions, of the grid where there are none (metres, manhattan frame)."""
+        import shapely
+
+        if not self.regions:
+            return self.grid.extent
+        x0, y0, x1, y1 = shapely.total_bounds([r.polygon for r in self.regions]).tolist()
+        return x0, y0, x1, y1
+
     def to_world(self, xy: Float) -> Float:
         """(N, 2) manhattan plan coordinates to (N, 2) coordinates of the input's world frame, metres."""
         local = self.frame.from_manhattan(np.asarray(xy, dtype=np.float64).reshape(-1, 2))

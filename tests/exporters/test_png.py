@@ -15,7 +15,7 @@ from floorplan_core.errors import UsageError
 from floorplan_core.exporters import png
 from floorplan_core.exporters.filmstrip import filmstrip_image, filmstrip_png
 from floorplan_core.exporters.placement import Line, Placed
-from floorplan_core.exporters.png_canvas import LONG_SIDE, View, draw_block, fit_view, plan_bounds
+from floorplan_core.exporters.png_canvas import LONG_SIDE, View, draw_block, fit_view
 from floorplan_core.exporters.walls import poche
 from floorplan_core.model import FREE, FloorPlan
 from tests.factories import l_corridor, office, small_flat
@@ -35,7 +35,7 @@ def plan() -> FloorPlan:
 
 @pytest.fixture(scope="module")
 def view(plan: FloorPlan) -> View:
-    return fit_view(plan_bounds(plan))
+    return fit_view(plan.bounds)
 
 
 @pytest.mark.parametrize("exporter", EXPORTERS)
@@ -46,7 +46,7 @@ def test_size_and_same_bytes(exporter: Any, make: Any, tmp_path: Path) -> None:
     assert (tmp_path / "a.part").read_bytes() == (tmp_path / "b.part").read_bytes()
     with Image.open(tmp_path / "a.part") as image:
         assert image.format == "PNG"
-        assert max(image.size[0], image.size[1] - fit_view(plan_bounds(make())).strip) == LONG_SIDE
+        assert max(image.size[0], image.size[1] - fit_view(make().bounds).strip) == LONG_SIDE
 
 
 def test_occupancy_colours(plan: FloorPlan, view: View) -> None:
