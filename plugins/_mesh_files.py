@@ -27,7 +27,8 @@ MAX_JSON = 256 << 20  # bytes of a glTF scene's description
 MAX_BESIDE = 4 << 30  # bytes of a glTF buffer in a file of its own
 MAX_FILLED = 1 << 24  # values of an accessor without data of its own, which would be filled with zeros
 MAX_PLY_HEADER = 1 << 20
-OBJ_LINE = re.compile(rb"^(?:v|vn|vt|vp|f|l|p|o|g|s|mtllib|usemtl|#)(?:\s|$)")
+PACKINGS = {"KHR_draco_mesh_compression": "Draco", "EXT_meshopt_compression": "meshopt"}
+OBJ_LINE = re.compile(rb"^(?:#|(?:v|vn|vt|vp|f|l|p|o|g|s|mtllib|usemtl)(?:\s|$))")
 OFF_LINE = re.compile(rb"^(?:ST|C|N|4|n)*OFF\b")
 
 
@@ -45,7 +46,7 @@ def mesh_kind(path: Path, head: bytes) -> str:
         return "gltf"
     if path.suffix.lower() == ".gltf" and head.lstrip().startswith(b"{"):
         return "gltf"
-    return "obj" if _is_obj(head) else ""
+    return "obj" if _is_obj(path, head) else ""
 
 
 def check_mesh(path: Path, kind: str) -> None:
@@ -73,6 +74,7 @@ def load_triangles(path: Path, kind: str) -> list[tuple[Any, Any]]:
     """
     trimesh = import_library("trimesh", "trimesh", "meshes")
     with path.open("rb") as handle, damaged(path.name, f"{kind.upper()} mesh"):
+        handle.seek(3 if handle.read(3) == b"\xef\xbb\xbf" else 0)
         scene = trimesh.load_scene(
             handle, file_type=kind, resolver=_Beside(path.parent), process=False, skip_materials=True
         )
@@ -155,14 +157,16 @@ def _is_stl(path: Path, head: bytes) -> bool:
     return exact or path.suffix.lower() == ".stl"
 
 
-def _is_obj(head: bytes) -> bool:
-    """Most lines begin with the words of the format, and some are corners."""
+def _is_obj(path: Path, head: bytes) -> bool:
+    """Most lines begin with the words of the format, and some are corners (or comments, in an ``.obj``)."""
     if b"\x00" in head:
         return False
-    lines = [line.strip() for line in head.splitlines()[:-1] if line.strip()]
+    text = re.sub(rb"\\\r?\n", b" ", head)  # a line may go on in the next
+    lines = [line.strip() for line in text.splitlines()[:-1] if line.strip()]
     corners = [line for line in lines if re.match(rb"^v\s+[-+.0-9]", line)]
     known = sum(bool(OBJ_LINE.match(line)) for line in lines)
-    return len(corners) >= 1 and known >= 0.9 * len(lines)
+    begins = len(corners) >= 1 or (bool(lines) and path.suffix.lower() == ".obj")
+    return begins and known >= 0.9 * len(lines)
 
 
 def _gltf_tree(path: Path, kind: str) -> dict[str, Any]:
@@ -193,6 +197,7 @@ def _gltf_tree(path: Path, kind: str) -> dict[str, Any]:
 def _check_gltf(path: Path, tree: dict[str, Any]) -> None:
     """No arrays that would be made of nothing; nodes form a tree, so that nothing multiplies."""
     try:
+        packed = set(tree.get("extensionsRequired", [])) & PACKINGS.keys()
         empty = [int(a["count"]) for a in tree.get("accessors", []) if "bufferView" not in a]
         children = [child for node in tree.get("nodes", []) for child in node.get("children", [])]
         meshes = tree.get("meshes", [])
@@ -203,6 +208,11 @@ def _check_gltf(path: Path, tree: dict[str, Any]) -> None:
         raise
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise InputError(f"{path.name} is damaged: its glTF scene is not as the format says.") from error
+    if packed:
+        raise InputError(
+            f"The meshes of {path.name} are compressed by {PACKINGS[min(packed)]}, which is not read; "
+            "save the scene without mesh compression."
+        )
     if sum(empty) > MAX_FILLED or min(empty, default=0) < 0:
         raise InputError(f"{path.name} is damaged: its glTF scene has {sum(empty):,} values without data.")
     if twice:

@@ -11,7 +11,9 @@ XYZ_NAMES = (
     ("pos_x", "pos_y", "pos_z"),
     ("x_m", "y_m", "z_m"),
     ("easting", "northing", "elevation"),
+    ("easting", "northing", "height"),
     ("east", "north", "height"),
+    ("rechtswert", "hochwert", "höhe"),
 )
 SCAN_ID_NAMES = (
     "scan_id", "scanid", "scan_index", "scan_idx", "scan_number", "scan", "frame_id", "frame_index", "frame",

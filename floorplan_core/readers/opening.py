@@ -229,7 +229,9 @@ def _mislabelled(path: Path, reader: Reader, readers: Sequence[Reader]) -> tuple
     suffix = path.suffix.lower()
     if path.is_dir() or suffix in reader.suffixes:
         return ()
-    claims = [other.name for other in readers if suffix in other.suffixes]
-    if not claims:
+    named = [other for other in readers if suffix in other.suffixes]
+    if not named or any(other.sniff(path, read_head(path)) > 0 for other in named):  # a mesh in a PLY
         return ()
-    return (f"{path.name} is named like a {claims[0]} file but holds {reader.name}; it was read as that.",)
+    return (
+        f"{path.name} is named like a {named[0].name} file but holds {reader.name}; it was read as that.",
+    )

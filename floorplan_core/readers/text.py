@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -26,7 +27,9 @@ HEAD_BYTES = 1 << 16
 MIN_ROWS = 3  # of the first lines that must be points before a file is called a text cloud
 COMMENTS = ("#", "//", "%")
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+MOST_TITLES = 30  # lines of words that may stand above the points of a file that is named like a cloud
 COUNT_LINE = re.compile(r"^\s*[0-9]{1,15}\s*$")
+UNIT = re.compile(r"[\[(](?:m|mm|cm|ft)[\])]")  # after the name of a column
 DECIMAL_COMMA = re.compile(r"^[+-]?\d+,\d+$")
 
 
@@ -40,6 +43,9 @@ class TextForm:
     decimal_comma: bool
     count: int | None  # of a line with a single number before the points
     offset: int  # bytes before the first row
+    titles: int = (
+        0  # lines above it that are neither names of columns that we know, nor a count, nor comments
+    )
 
 
 class TextReader:
@@ -51,7 +57,7 @@ class TextReader:
 
     def sniff(self, path: Path, head: bytes) -> float:
         """0.6 with one of our suffixes, else 0.3, where the first lines are rows of three numbers or more."""
-        form = read_form(head)
+        form = _form_of(path, head)
         if form is None or path.suffix.lower() == ".tum":
             return 0.0
         return 0.6 if path.suffix.lower() in self.suffixes else 0.3
@@ -64,7 +70,7 @@ class TextReader:
 def text_source(path: Path) -> PointSource:
     """The points of a text file."""
     with path.open("rb") as handle:
-        form = read_form(handle.read(HEAD_BYTES))
+        form = _form_of(path, handle.read(HEAD_BYTES))
     if form is None:
         raise InputError(f"{path.name} holds no lines of three numbers or more.")
     layout = _layout(path, form)
@@ -73,6 +79,8 @@ def text_source(path: Path) -> PointSource:
         notes = (f"{path.name} announces {form.count:,} points; what its lines hold is what counts.",)
     if form.decimal_comma:
         notes = (*notes, f"Commas in {path.name} are decimal commas.")
+    if form.titles and not form.names:
+        notes = (*notes, f"The first three columns of {path.name} are taken as x, y and z.")
     return PointSource(
         path,
         "XYZ",
@@ -85,36 +93,46 @@ def text_source(path: Path) -> PointSource:
     )
 
 
-def read_form(head: bytes) -> TextForm | None:
+def _form_of(path: Path, head: bytes) -> TextForm | None:
+    """Titles are skipped only where the name says that points follow: a table in any text is no cloud."""
+    return read_form(head, MOST_TITLES if path.suffix.lower() in TextReader.suffixes else 0)
+
+
+def read_form(head: bytes, most_titles: int = 0) -> TextForm | None:
     """The layout of the first lines; None where they are no rows of numbers."""
     if b"\x00" in head:
         return None
     offset = len(BYTE_ORDER_MARK) if head.startswith(BYTE_ORDER_MARK) else 0
     names: tuple[str, ...] = ()
     count: int | None = None
+    titles = 0
     lines = _complete_lines(head[offset:])
     for place, line in enumerate(lines):
         if _numbers(line.strip()) is not None:
-            return _form(lines[place:], names, count, offset)
+            return _form(lines[place:], names, count, offset, titles)
         words = _header_words(line)
         if find_xyz(words) is not None:
             names = words
         elif COUNT_LINE.match(line):
             count = int(line)
         elif words and not line.lstrip().startswith(COMMENTS):
-            return None
+            titles += 1
+            if titles > most_titles:
+                return None
         offset += len(line)
     return None
 
 
-def _form(lines: list[str], names: tuple[str, ...], count: int | None, offset: int) -> TextForm | None:
+def _form(
+    lines: list[str], names: tuple[str, ...], count: int | None, offset: int, titles: int
+) -> TextForm | None:
     """The layout where at least half of the lines from the first row on are rows, too."""
     held = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith(COMMENTS)]
     good = [form for form in map(_numbers, held) if form is not None]
     if len(good) < min(MIN_ROWS, len(held)) or 2 * len(good) < len(held):
         return None
     separator, comma, columns = good[0]
-    return TextForm(names, columns, separator, comma, count, offset)
+    return TextForm(names, columns, separator, comma, count, offset, titles)
 
 
 def _complete_lines(head: bytes) -> list[str]:
@@ -126,6 +144,10 @@ def _complete_lines(head: bytes) -> list[str]:
 
 def _numbers(line: str) -> tuple[str, bool, int] | None:
     """(separator, decimal comma?, columns) of a line that begins with three finite numbers; else None."""
+    if '"' in line:
+        if ";" not in line and any("," in quoted for quoted in line.split('"')[1::2]):
+            return None  # "1,5","2,5": between quotes a comma is a decimal one, which rows do not tell
+        line = line.replace('"', "")
     for separator, comma in _readings(line):
         words = line.replace(separator, " ").split() if separator != " " else line.split()
         if len(words) >= 3 and all(_is_number(w.replace(",", ".") if comma else w) for w in words[:3]):
@@ -152,8 +174,11 @@ def _is_number(word: str) -> bool:
 
 
 def _header_words(line: str) -> tuple[str, ...]:
-    clean = line.lstrip("#/% ").replace(";", " ").replace(",", " ").replace('"', "")
-    return tuple(clean.split())
+    with suppress(UnicodeDecodeError):  # else it is what Windows writes, and latin-1 is right
+        line = line.encode("latin-1").decode("utf-8")
+    clean = UNIT.sub("", line).lstrip("#/% ").replace('"', "")
+    separator = next((s for s in ";,\t" if s in clean), None)
+    return tuple(word.strip() for word in clean.split(separator) if word.strip())
 
 
 def _layout(path: Path, form: TextForm) -> TextLayout:

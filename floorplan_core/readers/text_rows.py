@@ -124,6 +124,7 @@ def _parse_by_kernel(block: bytes, layout: TextLayout) -> Float | None:
 
 def normalise(block: bytes, layout: TextLayout) -> bytes:
     """The block with spaces between its columns and points before its decimals."""
+    block = block.replace(b'"', b"")
     if layout.decimal_comma:
         block = block.replace(b",", b".")
     elif layout.separator == ",":

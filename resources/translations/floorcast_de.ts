@@ -3028,6 +3028,10 @@
    <translation>Die {0}-Achse der Datei weist nach oben, wie verlangt.</translation>
   </message>
   <message>
+   <source>The first three columns of {0} are taken as x, y and z.</source>
+   <translation>Die ersten drei Spalten von {0} gelten als x, y und z.</translation>
+  </message>
+  <message>
    <source>The floor plan appears here once a survey is planned.</source>
    <translation>Hier erscheint der Grundriss, sobald eine Aufnahme geplant ist.</translation>
   </message>
@@ -3130,6 +3134,10 @@
   <message>
    <source>The map's image {0} does not exist beside its YAML file.</source>
    <translation>Das Bild {0} der Karte fehlt neben ihrer YAML-Datei.</translation>
+  </message>
+  <message>
+   <source>The meshes of {0} are compressed by {1}, which is not read; save the scene without mesh compression.</source>
+   <translation>Die Netze von {0} sind mit {1} komprimiert, was nicht gelesen wird; die Szene ohne Netzkompression speichern.</translation>
   </message>
   <message>
    <source>The minimum set of layout planes.</source>
@@ -3916,6 +3924,14 @@
    <translation>ein BMP-Bild, keine Punktwolke</translation>
   </message>
   <message>
+   <source>a DWG drawing, not a point cloud</source>
+   <translation>eine DWG-Zeichnung, keine Punktwolke</translation>
+  </message>
+  <message>
+   <source>a DXF drawing, not a point cloud</source>
+   <translation>eine DXF-Zeichnung, keine Punktwolke</translation>
+  </message>
+  <message>
    <source>a GIF picture, not a point cloud</source>
    <translation>ein GIF-Bild, keine Punktwolke</translation>
   </message>
@@ -3948,16 +3964,24 @@
    <translation>ein ROS-Bag, für das kein Leser installiert ist</translation>
   </message>
   <message>
-   <source>a STEP or IFC model, for which no reader is installed</source>
-   <translation>ein STEP- oder IFC-Modell, für das kein Leser installiert ist</translation>
+   <source>a STEP or IFC model: a truth for the command evaluate, not a survey</source>
+   <translation>ein STEP- oder IFC-Modell: eine Wahrheit für den Befehl evaluate, keine Aufnahme</translation>
   </message>
   <message>
    <source>a TIFF picture, not a point cloud</source>
    <translation>ein TIFF-Bild, keine Punktwolke</translation>
   </message>
   <message>
+   <source>a VTK file; export it as PLY or PCD</source>
+   <translation>eine VTK-Datei; als PLY oder PCD exportieren</translation>
+  </message>
+  <message>
    <source>a ZIP archive without arrays of points; unpack it first</source>
    <translation>ein ZIP-Archiv ohne Felder von Punkten; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a Zstandard archive; unpack it first</source>
+   <translation>ein Zstandard-Archiv; zuerst entpacken</translation>
   </message>
   <message>
    <source>a bzip2 archive; unpack it first</source>
@@ -3986,6 +4010,10 @@
   <message>
    <source>a device</source>
    <translation>ein Gerät</translation>
+  </message>
+  <message>
+   <source>a document or a project of another program; export its points as E57 or LAS</source>
+   <translation>ein Dokument oder Projekt eines anderen Programms; dessen Punkte als E57 oder LAS exportieren</translation>
   </message>
   <message>
    <source>a folder</source>
@@ -4032,12 +4060,32 @@
    <translation>eine Pose ist keine Drehung mit einer endlichen Lage</translation>
   </message>
   <message>
+   <source>a project of ReCap, whose format is not open; export it as E57 or PTS</source>
+   <translation>ein ReCap-Projekt, dessen Format nicht offen ist; als E57 oder PTS exportieren</translation>
+  </message>
+  <message>
+   <source>a raw scan of FARO, whose format is not open; export it as E57</source>
+   <translation>ein roher FARO-Scan, dessen Format nicht offen ist; als E57 exportieren</translation>
+  </message>
+  <message>
+   <source>a scan of ReCap, whose format is not open; export it as E57 or PTS</source>
+   <translation>ein ReCap-Scan, dessen Format nicht offen ist; als E57 oder PTS exportieren</translation>
+  </message>
+  <message>
    <source>a socket</source>
    <translation>ein Socket</translation>
   </message>
   <message>
    <source>a storey is not a number from 0</source>
    <translation>ein Geschoss ist keine Zahl ab 0</translation>
+  </message>
+  <message>
+   <source>a tar archive; unpack it first</source>
+   <translation>ein tar-Archiv; zuerst entpacken</translation>
+  </message>
+  <message>
+   <source>a text document with formats, not a point cloud; save it as plain text</source>
+   <translation>ein formatiertes Textdokument, keine Punktwolke; als reinen Text speichern</translation>
   </message>
   <message>
    <source>a text is missing or too long</source>
@@ -4064,6 +4112,14 @@
    <translation>eine E57-Datei, für die kein Leser installiert ist</translation>
   </message>
   <message>
+   <source>an FBX scene; export it as glTF, OBJ or PLY</source>
+   <translation>eine FBX-Szene; als glTF, OBJ oder PLY exportieren</translation>
+  </message>
+  <message>
+   <source>an HDF5 file; export its points as LAS, PLY or NPZ</source>
+   <translation>eine HDF5-Datei; ihre Punkte als LAS, PLY oder NPZ exportieren</translation>
+  </message>
+  <message>
    <source>an MCAP recording, for which no reader is installed</source>
    <translation>eine MCAP-Aufzeichnung, für die kein Leser installiert ist</translation>
   </message>
@@ -4082,6 +4138,10 @@
   <message>
    <source>an STL mesh, for which no reader is installed</source>
    <translation>ein STL-Netz, für das kein Leser installiert ist</translation>
+  </message>
+  <message>
+   <source>an SVG picture, not a point cloud</source>
+   <translation>ein SVG-Bild, keine Punktwolke</translation>
   </message>
   <message>
    <source>an XML document, not a point cloud</source>
@@ -4404,6 +4464,10 @@
    <translation>Norden</translation>
   </message>
   <message>
+   <source>numbers without a header (a scan of KITTI?); name the folder of the scans, with its trajectory</source>
+   <translation>Zahlen ohne Kopf (ein Scan von KITTI?); den Ordner der Scans angeben, mit seiner Trajektorie</translation>
+  </message>
+  <message>
    <source>numpy arrays: points (N, 3), optional scan_id (N,)</source>
    <translation>numpy-Felder: Punkte (N, 3), scan_id (N,) wenn vorhanden</translation>
   </message>
@@ -4512,6 +4576,10 @@
    <translation>gerade Grenze des freien Raums</translation>
   </message>
   <message>
+   <source>text in UTF-16; save it as UTF-8</source>
+   <translation>Text in UTF-16; als UTF-8 speichern</translation>
+  </message>
+  <message>
    <source>the disk quota is used up; free some space, or choose another folder</source>
    <translation>das Kontingent auf dem Datenträger ist erschöpft; Platz schaffen oder einen anderen Ordner wählen</translation>
   </message>
@@ -4542,6 +4610,10 @@
   <message>
    <source>the outline of a region is damaged</source>
    <translation>der Umriss einer Region ist beschädigt</translation>
+  </message>
+  <message>
+   <source>the pointer of Git LFS to a file, not the file; get it with git lfs pull</source>
+   <translation>der Verweis von Git LFS auf eine Datei, nicht die Datei; mit git lfs pull holen</translation>
   </message>
   <message>
    <source>the points are flat, so only their extent could tell</source>

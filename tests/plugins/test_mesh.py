@@ -104,6 +104,30 @@ def test_points_without_faces(tmp_path):
     np.testing.assert_allclose(points, cloud, atol=1e-5)
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_lines_that_go_on_in_the_next_below_a_long_comment(tmp_path, end):
+    mesh = box()
+    lines = ["#" * 70] * 100 + ["v {} {} {}".format(*v) for v in mesh.vertices]
+    lines += [f"f {a} \\{end}{b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
+    path = tmp_path / "a.obj"
+    path.write_bytes(end.join(lines).encode())
+    assert on_box(whole(opened(path))[0]) < 1e-5
+
+
+@pytest.mark.parametrize(
+    ("extension", "says"), [("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt")]
+)
+def test_compressed_scenes_are_named(tmp_path, extension, says):
+    path = write_mesh(tmp_path / "a.gltf", box())
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"extensionsRequired": [extension]}))
+    assert f"compressed by {says}, which is not read" in refusal(path)
+
+
+def test_a_mesh_in_a_ply_is_not_called_misnamed(tmp_path):
+    survey = opened(write_mesh(tmp_path / "a.ply", box()))
+    assert not any("named like" in sentence for sentence in survey.assumptions)
+
+
 def test_clouds_stay_clouds(tmp_path):
     from tests.readers.reader_clouds import write_ply, xyz_columns
 

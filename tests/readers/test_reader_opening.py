@@ -48,6 +48,13 @@ def refused(path, **options):
         ("a.zip", b"PK\x03\x04" + b"\x00" * 40, "ZIP archive"),
         ("a.geojson", b'{"type": "FeatureCollection"}', "a JSON document"),
         ("a.pkl", b"\x80\x04\x95" + b"\x00" * 40, "pickled"),
+        ("a.pkl", b"\x80\x05\x95" + b"\x00" * 40, "pickled"),
+        ("a.txt", "1 2 3\n4 5 6\n7 8 9\n".encode("utf-16"), "text in UTF-16"),
+        ("a.tar", b"a.ply".ljust(257, b"\x00") + b"ustar\x00" + b"\x00" * 249, "a tar archive"),
+        ("a.ply", b"version https://git-lfs.github.com/spec/v1\n", "the pointer of Git LFS"),
+        ("000000.bin", b"\x00\x00\x80\x3f" * 40, "name the folder of the scans"),
+        ("a.rcp", b"\x00\x01\x02\x03" * 40, "a project of ReCap"),
+        ("a.ifc", b"ISO-10303-21;\nHEADER;\n", "a truth for the command evaluate"),
     ],
 )
 def test_what_it_is_instead(tmp_path, name, content, says):

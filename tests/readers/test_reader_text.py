@@ -41,6 +41,14 @@ def lines(cloud, separator, decimal=".", extra=""):
         ("a.xyz", lambda c: "\ufeff" + lines(c, " ")),
         ("a.xyz", lambda c: lines(c, " ").rstrip("\n")),
         ("a.unknown", lambda c: lines(c, " ")),
+        ("a.csv", lambda c: "X [m],Y [m],Z [m],Grey\n" + lines(c, ",", extra=",7")),
+        ("a.csv", lambda c: '"x","y","z"\n"' + lines(c, '","', extra='"').replace("\n", '\n"')[:-1]),
+        ("a.csv", lambda c: '"x";"y"\n"' + lines(c, '";"', ",", '"').replace("\n", '\n"')[:-1]),
+        (
+            "a.csv",
+            lambda c: "Punkt;Rechtswert;Hochwert;Höhe (m)\n7;" + lines(c, ";").replace("\n", "\n7;")[:-2],
+        ),
+        ("a.txt", lambda c: "Project: Büro\nDate: 1 May\n\nA B C\n" + lines(c, "\t")),
     ],
 )
 def test_round_trip(tmp_path, cloud, name, make):
@@ -49,6 +57,26 @@ def test_round_trip(tmp_path, cloud, name, make):
     points, _ = all_points(open_survey(path, config=AS_IT_IS))
     assert len(points) == len(cloud)
     np.testing.assert_allclose(points, cloud, atol=1e-5)
+
+
+def test_columns_without_known_names_are_said(tmp_path, cloud):
+    """In the code page of Windows, too; in a file that is not named like a cloud they are no cloud."""
+    text = "Länge;Breite;Höhe\n" + lines(cloud, ";", ",")
+    path = tmp_path / "a.csv"
+    path.write_text(text, encoding="cp1252")
+    survey = open_survey(path, config=AS_IT_IS)
+    np.testing.assert_allclose(all_points(survey)[0], cloud, atol=1e-5)
+    assert "The first three columns of a.csv are taken as x, y and z." in survey.assumptions
+    other = path.rename(tmp_path / "a.log")
+    with pytest.raises(InputError, match="not a point cloud"):
+        open_survey(other)
+
+
+def test_decimal_commas_between_quotes_and_commas_are_not_guessed(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text('"1,5","2,5","3,5"\n' * 9)
+    with pytest.raises(InputError, match="its content is not"):
+        open_survey(path)
 
 
 def test_columns_by_name(tmp_path, cloud):
