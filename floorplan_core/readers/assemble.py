@@ -27,7 +27,7 @@ from floorplan_core.readers.trajectory import read_trajectory
 from floorplan_core.readers.trajectory_check import belongs, check_plausible, check_rows, fit_unit
 from floorplan_core.readers.trajectory_files import find_trajectory
 from floorplan_core.readers.trajectory_forms import are_reflections
-from floorplan_core.units import METRES_PER_UNIT, up_rotation
+from floorplan_core.units import METRES_PER_UNIT, UNIT_NAMES, up_rotation
 
 Float = NDArray[np.float64]
 
@@ -76,15 +76,19 @@ def _scan_count(source: PointSource) -> int | None:
 def _guess(source: PointSource, points: Float, path: Trajectory | None, options: ReadOptions) -> AxisGuess:
     """What the user asked for, else what the format fixes, else what the points look like."""
     asked = options.input
-    unit = source.unit if asked.unit == "auto" else asked.unit
     up = source.up if asked.up == "auto" else asked.up
-    guess = guess_axes(points, path, unit, up)
-    fixed = (asked.up == "auto" and up != "auto", asked.unit == "auto" and unit != "auto")
+    guess = guess_axes(points, path, asked.unit, up, usual=source.unit)
     words = f"as {source.format} files have it"
-    sentences = (
-        s.replace("as asked", words) if f else s for s, f in zip(guess.sentences, fixed, strict=True)
-    )
-    return replace(guess, sentences=tuple(sentences))
+    up_said, unit_said = guess.sentences
+    if asked.up == "auto" and up != "auto":
+        up_said = up_said.replace("as asked", words)
+    if asked.unit != "auto" or source.unit == "auto":
+        return replace(guess, sentences=(up_said, unit_said))
+    usual = UNIT_NAMES[source.unit]
+    if guess.unit == source.unit:
+        return replace(guess, sentences=(up_said, f"Coordinates are in {usual}, {words}."))
+    unlike = f"{source.format} files are in {usual}, but then no building is of this size."
+    return replace(guess, sentences=(up_said, unlike, unit_said))
 
 
 def _handedness(asked: str, path: Trajectory | None) -> tuple[bool, list[str]]:

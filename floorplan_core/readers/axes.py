@@ -58,6 +58,9 @@ EXTENT = Typical(20.0, 1.3, 8.0)  # longer side of the plan
 SENSOR = Typical(1.1, 0.5, 2.5)  # of the sensor above the floor
 SPEED = Typical(0.5, 0.9, 1.5)  # metres a second of whoever carries it
 PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # logarithms: how often files come in each unit
+# Logarithm of how much likelier a file is in the unit that its format fixes: no hall or site costs metres this
+# much, a building of millimetres written as metres (a storey of 3 km) costs them 20.
+FORMAT_WEIGHT = 12.0
 
 
 @dataclass(frozen=True)
@@ -69,11 +72,16 @@ class AxisGuess:
     sentences: tuple[str, ...]
 
 
-def guess_axes(points: Float, trajectory: Trajectory | None, unit: str, up: str) -> AxisGuess:
-    """Decide what is "auto"; ``points`` (N, 3) finite, N > 0, ``trajectory`` in the same file coordinates."""
+def guess_axes(
+    points: Float, trajectory: Trajectory | None, unit: str, up: str, usual: str = "auto"
+) -> AxisGuess:
+    """Decide what is "auto"; ``points`` (N, 3) finite, N > 0, ``trajectory`` in the same file coordinates.
+
+    ``usual`` is the unit that the format fixes: believed unless no building is of that size.
+    """
     layers = [find_layers(points[:, axis]) for axis in range(3)]
     up_guess = guess_up(points, layers, trajectory) if up == "auto" else up
-    unit_guess = guess_unit(layers, trajectory, up_guess) if unit == "auto" else unit
+    unit_guess = guess_unit(layers, trajectory, up_guess, usual) if unit == "auto" else unit
     sentences = (_up_sentence(up, up_guess), _unit_sentence(unit, unit_guess, layers, up_guess))
     return AxisGuess(up_guess, unit_guess, sentences)
 
@@ -116,7 +124,7 @@ def _is_one_surface(points: Float, layers: list[Layers]) -> bool:
     )  # no floor and ceiling
 
 
-def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str) -> str:
+def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str, usual: str = "auto") -> str:
     """ "m", "mm", "cm" or "ft" (ties go in this order): what makes the sizes those of a building."""
     axis = "xyz".index(up[-1])
     plan = max(layers[a].high - layers[a].low for a in range(3) if a != axis)
@@ -128,7 +136,7 @@ def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str) -> 
         size = METRES_PER_UNIT[unit]
         vertical = STOREY.score(storey * size) if storey else HEIGHT.score(tall * size)
         rest = EXTENT.score(plan * size) + SENSOR.score(sensor * size) + SPEED.score(speed * size)
-        return PRIOR[unit] + vertical + rest
+        return PRIOR[unit] + vertical + rest + (FORMAT_WEIGHT if unit == usual else 0.0)
 
     return max(PRIOR, key=score)
 

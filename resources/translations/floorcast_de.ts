@@ -560,6 +560,10 @@
    <translation>Die Koordinaten sind {0}, wie verlangt.</translation>
   </message>
   <message>
+   <source>Coordinates are in {0}, {1}.</source>
+   <translation>Die Koordinaten sind {0}, {1}.</translation>
+  </message>
+  <message>
    <source>Coordinates are in {0}; this is kept for export.</source>
    <translation>Die Koordinaten sind in {0}; das bleibt für den Export erhalten.</translation>
   </message>
@@ -4814,6 +4818,10 @@
   <message>
    <source>{0} failed: {1}: {2}.</source>
    <translation>{0} ist gescheitert: {1}: {2}.</translation>
+  </message>
+  <message>
+   <source>{0} files are in {1}, but then no building is of this size.</source>
+   <translation>{0}-Dateien haben {1}, aber so groß ist dann kein Gebäude.</translation>
   </message>
   <message>
    <source>{0} files are read as one survey: {1}.</source>

@@ -85,6 +85,21 @@ def test_large_coordinates(tmp_path, parts):
     np.testing.assert_allclose(survey.trajectory.origins + survey.local_frame.shift - shift, STATIONS)
 
 
+def test_millimetres_that_should_be_metres(tmp_path, parts):
+    """The standard has metres; a building 2.6 km high is one of millimetres all the same, scanners too."""
+    with pye57.E57(str(tmp_path / "mm.e57"), "w") as file:
+        for k, part in enumerate(parts):
+            rotation, translation = pose_of(k)
+            local = to_scan(part, rotation, translation) * 1000
+            columns = {f"cartesian{a}": local[:, i] for i, a in enumerate("XYZ")}
+            file.write_scan_raw(columns, rotation=rotation, translation=translation * 1000)
+    survey = opened(tmp_path / "mm.e57", unit="auto")
+    np.testing.assert_allclose(whole(survey)[0], np.concatenate(parts), atol=1e-5)
+    assert survey.local_frame.unit == "mm"
+    assert "E57 files are in metres, but then no building is of this size." in survey.assumptions
+    np.testing.assert_allclose(survey.trajectory.origins, STATIONS, atol=1e-6)
+
+
 def test_a_merged_cloud_has_no_viewpoint(tmp_path, parts):
     survey = opened(write_e57(tmp_path / "a.e57", [np.concatenate(parts)], posed=False))
     points, ids = whole(survey)
