@@ -12,7 +12,7 @@ from floorplan_core.exporters.sheet import BLOCKS, COLUMN, MARGIN, Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas, text_width
 from floorplan_core.model import FloorPlan
 
-TITLE, SCALE, BODY, SMALL = 4.6, 3.4, 2.2, 1.9  # mm
+TITLE, SCALE, BODY, SMALL = 4.6, 3.4, 2.5, 2.2  # mm
 ROW = 3.9  # mm from line to line
 RULE = 0.25  # mm
 SWATCH = (7.0, 3.2)  # mm
@@ -22,7 +22,7 @@ LEAF = 0.32  # mm, as thick as the leaves in the plan
 SIGNS = 4  # entries of the first column: walls and floors
 BAR_LENGTHS = (1, 2, 5, 10, 20, 50, 100, 200, 500)  # metres or feet
 BAR_SHARE = 0.62  # of the block's width that the scale bar may take
-NORTH = 6.5  # mm, radius of the arrow's circle
+NORTH, NORTH_EDGE = 6.5, 2.0  # mm, radius of the arrow's circle, and what is right of it
 
 
 def draw_blocks(canvas: SvgCanvas, sheet: Sheet, plan: FloorPlan, style: DrawingStyle = PLAIN) -> None:
@@ -56,8 +56,9 @@ def _draw_title(
         size = _fitting(title, TITLE, _width(sheet, 0) / BOLD)
         canvas.text(style.say("Floor plan"), x, y + 5.2, BODY, font_weight="600", fill=palette.ACCENT)
         canvas.text(title, x, y + 11.2, size, font_weight="600")
-        for i, text in enumerate(title_lines(sheet, plan, style)):
-            fitting = _fitting(text, BODY, _width(sheet, 0))
+        lines = title_lines(sheet, plan, style)
+        fitting = min(_fitting(text, BODY, _width(sheet, 0)) for text in lines)
+        for i, text in enumerate(lines):
             canvas.text(text, x, y + 16.4 + i * ROW, fitting, fill=palette.INK if i == 0 else palette.GREY)
 
 
@@ -184,7 +185,7 @@ def _draw_north(
     """The direction of the world's +y axis."""
     right, up = (plan.frame.rotation[:2, :2] @ (0.0, 1.0)).tolist()
     turn = math.degrees(math.atan2(right, up))
-    cx, cy = x + _width(sheet, 2) - NORTH - 2.0, y + 16.0
+    cx, cy = x + _width(sheet, 2) - NORTH - NORTH_EDGE, y + 16.0
     r = NORTH
     with canvas.group(id="north", transform=f"translate({cx:.3f} {cy:.3f})"):
         canvas.add("circle", cx=0.0, cy=0.0, r=r, fill="none", stroke=palette.INK, stroke_width=0.18)
@@ -201,4 +202,5 @@ def _draw_north(
             )
             canvas.text("N", 0.0, -r - 1.0, 2.6, text_anchor="middle", font_weight="600")
         note = style.say("north = world +y")
-        canvas.text(note, 0.0, r + 6.0, SMALL, text_anchor="middle", fill=palette.GREY)
+        fitting = _fitting(note, SMALL, 2 * (r + NORTH_EDGE))
+        canvas.text(note, 0.0, r + 6.0, fitting, text_anchor="middle", fill=palette.GREY)

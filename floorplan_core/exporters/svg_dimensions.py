@@ -22,11 +22,11 @@ Float = NDArray[np.float64]
 
 CHAIN_ROW, OVERALL_ROW = 6.5, 13.0  # mm from the walls
 TICK = 0.8  # mm, half a tick
-TEXT, TOTAL = 1.9, 2.2  # mm
-SMALLEST = 1.35  # mm; stretches too short for such text are left out
+TEXT, TOTAL = 2.5, 2.8  # mm: ISO 3098 has 2.5 for writing on a drawing
+SMALLEST = 1.5  # mm; stretches too short for such text are left out
 FILL = 0.86  # of the stretch that text may take: that of the next one begins a wall farther on
 RAISE = 0.8  # mm between text and line
-INSIDE = 1.75  # mm, widths inside the plan
+INSIDE = 2.2  # mm, widths inside the plan
 SLIM = 1.8  # arms this much longer than wide get a width
 PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9)  # along the arm, in the order in which they are tried
 SHORTEST = 5.0  # mm: narrower arms have no room for text

@@ -15,7 +15,7 @@ from floorplan_core.exporters.sheet import Sheet
 from floorplan_core.exporters.svg_canvas import SvgCanvas
 from floorplan_core.model import FloorPlan, Region
 
-NAME, AREA, NOTE = 2.7, 2.2, 1.75  # mm
+NAME, AREA, NOTE = 3.2, 2.6, 2.2  # mm
 PAD = 0.9  # mm between text and wall
 AIR = 0.5  # mm around text that hatching leaves free
 RECTANGULAR = 0.995  # share of its bounds that a region fills to be called a rectangle
