@@ -21,7 +21,7 @@ Float = NDArray[np.float64]
 
 LEADING = 1.32  # line height over font size
 SMALLEST = 0.64  # of the wanted size
-LEVEL, TURNED = (1.0, 0.87, 0.76, 0.66), (1.0, 0.82)  # sizes to try: level text shrinks a little before it turns
+LEVEL, TURNED = (1.0, 0.87, 0.76, 0.66), (1.0, 0.82)  # sizes to try: level text shrinks before it turns
 BOLD = 1.1  # width of the bold name over that of the regular face
 NEAREST = 64  # spots of which those with much room around come first
 CENTRED = 2.0  # how much farther from the centroid a spot may lie for its distance from the walls

@@ -58,8 +58,8 @@ EXTENT = Typical(20.0, 1.3, 8.0)  # longer side of the plan
 SENSOR = Typical(1.1, 0.5, 2.5)  # of the sensor above the floor
 SPEED = Typical(0.5, 0.9, 1.5)  # metres a second of whoever carries it
 PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # logarithms: how often files come in each unit
-# Logarithm of how much likelier a file is in the unit that its format fixes: no hall or site costs metres this
-# much, a building of millimetres written as metres (a storey of 3 km) costs them 20.
+# Logarithm of how much likelier a file is in the unit that its format fixes: no hall or site costs metres
+# this much; a building of millimetres written as metres (a storey of 3 km) costs them 20.
 FORMAT_WEIGHT = 12.0
 
 
