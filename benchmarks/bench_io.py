@@ -1,127 +1,65 @@
 """``python -m benchmarks.bench_io [--points N] [FORMAT ...]`` (``make bench-io``): reading and plain reading.
 
 A survey of N points (default 20 million) is made by laying a simulated one on itself with 5 mm of noise and
-written as LAS, LAZ, E57, PLY, PCD (binary, and compressed: ``pcdz``) and text. Each is read by the format's
-own library alone (all coordinates; Open3D for the last four), then opened and planned by Floorcast, each in a
-process of its own: CPU seconds, MB a second, most memory.
-A tenth of the points shows what grows with the file: time does, memory must not. The last columns project the
-CPU of 100 million and of a thousand million points.
+written as LAS, LAZ, E57, PLY, PCD (binary, and compressed: ``pcdz``), text (XYZ, PTS, PTX) and recordings
+(``bag`` of ROS 1, ``db3`` and ``mcap`` of ROS 2: a message of 28,800 points each, with transforms). Each is
+read by the format's own library alone (all coordinates; Open3D for PLY, PCD, XYZ and PTS, numpy for PTX,
+rosbags for recordings), then opened and planned by Floorcast, each in a process of its own: wall and CPU
+seconds, MB a second, most memory.
+
+A tenth of the points tells what grows with the file from what does not: the seconds of each further million
+points, plainly read and planned, and their ratio; and the seconds that a file of no points would take
+(opening it, planning the building). Memory must not grow. The last column is what a thousand million points
+would take.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from benchmarks.io_writers import BAGS, BLOCK, CLOUD, FORMATS, write
 from benchmarks.record import Outcome
 from benchmarks.record import report as keep
 
 SMALL = Path(__file__).resolve().parents[1] / "resources" / "sample_survey"  # warms the kernels up
-BLOCK = 1 << 20  # points that are written and read at a time
-NOISE = 0.005  # m between two visits of one place
-FORMATS = ("las", "laz", "e57", "ply", "pcd", "pcdz", "xyz")  # pcdz: compressed PCD
-PROJECTED = (10**8, 10**9)
-
-
-def blocks(count: int) -> Iterator[np.ndarray]:
-    """(N, 3) float64 points of a simulated building, again and again with other noise, ``count`` in all."""
-    from floorplan_core.simulation import BuildingSpec, SurveySpec, sensor_preset, simulate_survey
-
-    building = BuildingSpec(style="l", rooms=12)
-    points = simulate_survey(SurveySpec(building, sensor_preset("station"), seed=7)).points
-    rng = np.random.default_rng(0)
-    at = left = 0
-    left = count
-    while left > 0:
-        rows = np.arange(at, at + min(BLOCK, left)) % len(points)
-        yield points[rows] + rng.normal(0, NOISE, (len(rows), 3))
-        at, left = at + len(rows), left - len(rows)
-
-
-def write(path: Path, count: int) -> None:
-    """Stream ``count`` points into ``path``."""
-    writers = {
-        "las": _write_las,
-        "laz": _write_las,
-        "e57": _write_e57,
-        "ply": _write_ply,
-        "pcd": _write_pcd,
-        "pcdz": _write_pcdz,
-        "xyz": _write_xyz,
-    }
-    writers[path.suffix[1:]](path, count)
-
-
-def _write_las(path: Path, count: int) -> None:
-    import laspy
-
-    header = laspy.LasHeader(version="1.4", point_format=6)
-    header.scales = np.full(3, 1e-3)
-    with laspy.open(path, mode="w", header=header) as file:
-        for block in blocks(count):
-            record = laspy.ScaleAwarePointRecord.zeros(len(block), header=header)
-            record.x, record.y, record.z = block.T
-            file.write_points(record)
-
-
-def _write_e57(path: Path, count: int) -> None:
-    import pye57
-
-    with pye57.E57(str(path), "w") as file:
-        for block in blocks(count):
-            file.write_scan_raw(
-                {f"cartesian{a}": np.ascontiguousarray(block[:, k]) for k, a in enumerate("XYZ")}
-            )
-
-
-def _write_ply(path: Path, count: int) -> None:
-    head = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
-    head += [f"property float {axis}" for axis in "xyz"] + ["end_header", ""]
-    _write_floats(path, head, count)
-
-
-def _write_pcd(path: Path, count: int) -> None:
-    head = ["VERSION .7", "FIELDS x y z", "SIZE 4 4 4", "TYPE F F F", "COUNT 1 1 1", f"WIDTH {count}"]
-    head += ["HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", f"POINTS {count}", "DATA binary", ""]
-    _write_floats(path, head, count)
-
-
-def _write_floats(path: Path, head: list[str], count: int) -> None:
-    with path.open("wb") as file:
-        file.write("\n".join(head).encode())
-        for block in blocks(count):
-            file.write(block.astype("<f4").tobytes())
-
-
-def _write_pcdz(path: Path, count: int) -> None:
-    import open3d as o3d
-
-    points = np.concatenate(list(blocks(count)))
-    cloud = o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))
-    other = path.with_suffix(".pcd")
-    o3d.io.write_point_cloud(str(other), cloud, compressed=True)
-    other.rename(path)
-
-
-def _write_xyz(path: Path, count: int) -> None:
-    with path.open("w") as file:
-        for block in blocks(count):
-            file.write("".join(f"{x:.4f} {y:.4f} {z:.4f}\n" for x, y, z in block.tolist()))
+PROJECTED = 10**9
+CLOCKS = {"seconds": "wall", "cpu": "CPU"}  # of a measurement; how they are called
+WHOLE = (
+    "      points      file     plain: wall     CPU       rate   memory"
+    "   planned: wall     CPU       rate   memory (of a tenth)"
+)
+GROWTH = (
+    "a million points more, s",
+    "plain: wall",
+    "CPU",
+    "planned: wall",
+    "CPU",
+    "ratio: wall",
+    "CPU",
+    "no points: wall",
+    "CPU",
+    "1000 M: wall",
+    "CPU",
+)
 
 
 def plain(path: Path) -> int:
     """All coordinates with the format's own library; returns how many points there were."""
-    readers = {"las": _plain_las, "laz": _plain_las, "e57": _plain_e57}
-    return readers.get(path.suffix[1:], _plain_by_open3d)(path)
+    kind = path.suffix[1:]
+    readers = {"las": _plain_las, "laz": _plain_las, "e57": _plain_e57, "ptx": _plain_ptx}
+    readers |= dict.fromkeys(BAGS, _plain_bag)
+    return readers.get(kind, _plain_by_open3d)(path)
 
 
 def _plain_las(path: Path) -> int:
@@ -151,6 +89,23 @@ def _plain_by_open3d(path: Path) -> int:
     return len(np.asarray(o3d.io.read_point_cloud(str(path), format=path.suffix[1:4]).points))
 
 
+def _plain_ptx(path: Path) -> int:
+    return len(np.loadtxt(path, skiprows=10, usecols=(0, 1, 2)))
+
+
+def _plain_bag(path: Path) -> int:
+    from rosbags.highlevel import AnyReader
+
+    total = 0
+    with AnyReader([path]) as reader:
+        clouds = [c for c in reader.connections if c.msgtype == CLOUD]
+        for connection, _, raw in reader.messages(clouds):
+            message = reader.deserialize(raw, connection.msgtype)
+            rows = message.data.view("<f4").reshape(-1, message.point_step // 4)
+            total += len(np.ascontiguousarray(rows[:, :3]))
+    return total
+
+
 def planned(path: Path) -> int:
     """Opened and planned by Floorcast."""
     from floorplan_core.pipeline import process
@@ -177,10 +132,18 @@ def _peak_mb() -> float:
     return int(status.partition("VmHWM:")[2].split()[0]) / 1024
 
 
-def run_apart(path: Path, how: str) -> dict[str, float]:
-    """:func:`measure` in a process of its own."""
+def run_apart(path: Path, how: str, twice: bool = False) -> dict[str, float]:
+    """:func:`measure` in a process of its own; RuntimeError with what it said where it fails.
+
+    ``twice``: whatever took less of two runs; a small file takes seconds, which show what else is on.
+    """
+    if twice:
+        runs = run_apart(path, how), run_apart(path, how)
+        return {name: min(run[name] for run in runs) for name in runs[0]}
     command = [sys.executable, "-m", "benchmarks.bench_io", "--one", how, str(path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{path.name}, {how}: ended with {done.returncode}.\n{done.stderr}")
     result: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
     return result
 
@@ -191,40 +154,53 @@ def bench(kind: str, count: int, folder: Path) -> dict[str, Any]:
     for name, points in (("tenth", count // 10), ("all", count)):
         path = folder / f"{name}.{kind}"
         write(path, points)
-        megabytes = path.stat().st_size / 1e6
-        found[name] = {how: run_apart(path, how) for how in ("plain", "planned")} | {"mb": megabytes}
-        path.unlink()
+        files = [path] if path.is_file() else list(path.iterdir())
+        found[name] = {how: run_apart(path, how, twice=name == "tenth") for how in ("plain", "planned")}
+        found["mb"] = sum(file.stat().st_size for file in files) / 1e6
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
     return found
 
 
 def row(found: dict[str, Any]) -> str:
-    """One line of the table, with the projections."""
-    small, large = found["tenth"]["planned"], found["all"]["planned"]
-    slope = (large["cpu"] - small["cpu"]) / (large["points"] - small["points"])
-    fixed = max(0.0, large["cpu"] - slope * large["points"])
-    plain_ = found["all"]["plain"]
-    slower = slope / max(
-        (plain_["cpu"] - found["tenth"]["plain"]["cpu"]) / (large["points"] - small["points"]), 1e-12
-    )
-    ahead = "  ".join(f"{fixed + slope * n:7.0f} s" for n in PROJECTED)
-    return (
-        f"{found['format']:<6}{large['points'] / 1e6:7.1f} M {found['all']['mb']:8.0f} MB"
-        f"{plain_['cpu']:9.1f} s {found['all']['mb'] / plain_['cpu']:7.0f} MB/s {plain_['peak_mb']:7.0f} MB"
-        f"{large['cpu']:9.1f} s {found['all']['mb'] / large['cpu']:7.0f} MB/s {large['peak_mb']:7.0f} MB"
-        f" (a tenth: {small['peak_mb']:5.0f} MB) {slower:5.1f} x   {ahead}"
-    )
+    """What the whole file took: one line of the table."""
+    mb, small = found["mb"], found["tenth"]["planned"]["peak_mb"]
+    text = f"{found['format']:<6}{found['all']['plain']['points'] / 1e6:6.1f}{mb:7.0f} MB"
+    for took in (found["all"]["plain"], found["all"]["planned"]):
+        text += f"{took['seconds']:14.1f} s {took['cpu']:6.1f} s"
+        text += f"{mb / took['cpu']:6.0f} MB/s{took['peak_mb']:6.0f} MB"
+    return f"{text} ({small:5.0f} MB)"
+
+
+def growth(found: dict[str, Any], how: str, clock: str) -> tuple[float, float]:
+    """Seconds of a million points more, and of a file without any, by one of ``CLOCKS``."""
+    small, large = found["tenth"][how], found["all"][how]
+    slope = (large[clock] - small[clock]) / (large["points"] - small["points"]) * 1e6
+    return slope, max(0.0, large[clock] - slope * large["points"] / 1e6)
 
 
 def figures(found: dict[str, Any]) -> dict[str, float]:
     """What is kept of one format, by name."""
     out = {}
     for how in ("plain", "planned"):
-        name = f"{found['format']} {found['all']['planned']['points'] / 1e6:g} M, {how}"
-        out[f"{name}: s CPU"], out[f"{name}: most MB"] = (
-            found["all"][how]["cpu"],
-            found["all"][how]["peak_mb"],
-        )
+        took, name = found["all"][how], f"{found['format']} {found['all'][how]['points'] / 1e6:g} M, {how}"
+        out |= {f"{name}: s wall": took["seconds"], f"{name}: s CPU": took["cpu"]}
+        out |= {f"{name}: most MB": took["peak_mb"]}
+        for clock, word in CLOCKS.items():
+            out[f"{name}: s {word} a million more"] = growth(found, how, clock)[0]
     return out
+
+
+def growth_row(found: dict[str, Any]) -> list[str]:
+    """One line of the second table: what grows with the points, what does not, and where that leads."""
+    plain_, mine = ([growth(found, how, clock) for clock in CLOCKS] for how in ("plain", "planned"))
+    pairs = [(ours[0], theirs[0]) for ours, theirs in zip(mine, plain_, strict=True)]
+    return [
+        found["format"],
+        *(f"{slope:.3f}" for slope, _ in (*plain_, *mine)),
+        *(f"{ours / theirs:.2f} x" if min(ours, theirs) > 0 else "too few points" for ours, theirs in pairs),
+        *(f"{fixed:.1f}" for _, fixed in mine),
+        *(f"{fixed + slope * PROJECTED / 1e6:.0f}" for slope, fixed in mine),
+    ]
 
 
 def is_one(arguments: list[str], measure: Callable[[Path, str], dict[str, float]]) -> bool:
@@ -248,16 +224,16 @@ def main(arguments: list[str]) -> int:
     if is_one(arguments, measure):
         return 0
     given = parser_of("bench_io", 20_000_000, FORMATS).parse_args(arguments)
-    print(
-        "       points      file   plain reading: CPU, rate, memory    opened and planned: CPU, rate, memory"
-    )
+    print(WHOLE)
     kept: dict[str, float] = {}
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
         for kind in given.formats or FORMATS:
             found = bench(kind, given.points, Path(folder))
             kept |= figures(found)
+            rows.append(growth_row(found))
             print(row(found), flush=True)
-    keep("bench_io", Outcome("reading and planning beside plain reading", figures=kept))
+    keep("bench_io", Outcome("what grows with the points, from a tenth of them to all", GROWTH, rows, kept))
     return 0
 
 
