@@ -62,6 +62,7 @@ class Workbench:
         self.points = PointStore()
         self.warnings: tuple[str, ...] = ()
         self.assumptions: tuple[str, ...] = ()
+        self.failure = ""  # why the last job came to nothing
         self.tool = "select"  # "select", "measure", "plane", "door", "wall", "split", "merge", "move"
         self.plan_changed = Event()  # (FloorPlan | None)
         self.partial = Event()  # (stage, result) as stages finish
@@ -367,9 +368,12 @@ class Workbench:
         self.selection.keep_only(self.exists)
 
     def _job_ended(self, error: Exception | None) -> None:
+        self.failure = ""
         if error is not None:
+            cancelled = getattr(error, "exit_status", 4) == 130
+            self.failure = "" if cancelled else str(error)
             self.points_changed.emit()
-            self.ui.tell(str(error), "info" if getattr(error, "exit_status", 4) == 130 else "error")
+            self.ui.tell(str(error), "info" if cancelled else "error")
 
     def _warned(self, text: str) -> None:
         if text not in self.warnings:
@@ -383,7 +387,7 @@ class Workbench:
     def _close_survey(self) -> None:
         self.jobs.cancel()
         self.planner.forget()
-        self.session, self.plan, self.storeys, self.warnings = None, None, (), ()
+        self.session, self.plan, self.storeys, self.warnings, self.failure = None, None, (), (), ""
         self._whole, self.moment, self._replayed = None, None, {}
         self._show_timeline()
         self.points = PointStore()

@@ -1,4 +1,4 @@
-"""What Floorcast was not sure of: its assumptions about the file, and the plan's warnings."""
+"""Why there is no plan, what was assumed of the file, and what the plan warns of."""
 
 from __future__ import annotations
 
@@ -29,19 +29,22 @@ class WarningsPanel(Panel):
         layout.addWidget(self.list)
         copy = QShortcut(QKeySequence.StandardKey.Copy, self.list)
         copy.activated.connect(self._copy)
-        self.listen(workbench.plan_changed, workbench.jobs.warned, workbench.survey_changed, theme.changed)
+        events = (workbench.jobs.ended, workbench.jobs.warned, workbench.survey_changed, theme.changed)
+        self.listen(workbench.plan_changed, *events)
         self.refresh()
 
     def refresh(self) -> None:
         holds = theme.colours()
         self.list.clear()
+        if failure := self.workbench.failure:
+            self.list.addItem(QListWidgetItem(icons.icon("circle-alert", holds.error), tr_text(failure)))
         for text in self.workbench.assumptions if self.workbench.state.survey else ():
             self.list.addItem(QListWidgetItem(icons.icon("info", holds.muted), tr_text(text)))
         for text in self.workbench.warnings:
             self.list.addItem(QListWidgetItem(icons.icon("triangle-alert", holds.warning), tr_text(text)))
         self.list.setVisible(self.list.count() > 0)
         self.nothing.setVisible(self.list.count() == 0)
-        count = len(self.workbench.warnings)
+        count = len(self.workbench.warnings) + bool(failure)
         retitle(self, tr("Warnings ({n})").format(n=count) if count else tr("Warnings"))
 
     def _copy(self) -> None:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app.actions.view_actions import fit
+from floorcast_app.translation import tr, tr_text
 from floorcast_app.viewports.canvas import PlanCanvas
+from floorcast_app.viewports.listening import listen
+from floorcast_app.viewports.plan_frame import Frame
+from floorcast_app.viewports.plan_overlay import paint_card
 from floorcast_app.workbench import Workbench
 
 REFIT = 60  # ms that the size must rest before a plan that filled the pane fills it again
@@ -24,6 +28,7 @@ class FloorPlanView(PlanCanvas):
         super().__init__(workbench, parent)
         self._refit = QTimer(self, singleShot=True, interval=REFIT)
         self._refit.timeout.connect(self._fill)
+        listen(self, ((workbench.jobs.started, self._job_changed), (workbench.jobs.ended, self._job_changed)))
 
     @property
     def ready(self) -> bool:
@@ -36,6 +41,17 @@ class FloorPlanView(PlanCanvas):
         self.workbench.view.room = (float(self.width()), float(self.height()))
         if self.workbench.view.is_fitted:
             self._refit.start()
+
+    def _paint_over(self, painter: QPainter, frame: Frame, interactive: bool) -> None:
+        """Where there is no plan the reason stays to be read."""
+        w = self.workbench
+        if w.failure and w.plan is None and not w.jobs.running:
+            paint_card(painter, frame, tr("No plan could be made"), tr_text(w.failure))
+        else:
+            super()._paint_over(painter, frame, interactive)
+
+    def _job_changed(self, *_: object) -> None:
+        self.update()
 
     def _fill(self) -> None:
         """A plan that was whole stays whole, as large as the pane has it."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QPainter, QPixmap, QPolygonF
+from PySide6.QtGui import QFontMetricsF, QPainter, QPixmap, QPolygonF
 
 from floorcast_app import format
 from floorcast_app.layers.item_shapes import ItemShape, anchor, item_shape
@@ -16,11 +16,14 @@ from floorcast_app.selection import Item
 from floorcast_app.tools.gestures import Mark, Point
 from floorcast_app.viewports.plan_camera import Camera
 from floorcast_app.viewports.plan_frame import (
+    BODY,
+    NAME,
     SMALL,
     Frame,
     colour,
     draw_chip,
     draw_text,
+    font,
     lines_path,
     path_of,
     pen,
@@ -37,6 +40,30 @@ PLACES = (0.5, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # along a measurement: where its
 PIN = 5.0  # pixels, radius of a pin's head
 TICK = 5.0
 GRIPPED = 24.0  # pixels that a thing needs for handles at its ends
+CARD, CARD_AIR = 440.0, 16.0  # pixels: width of a card at most, and the air in it and around it
+
+
+def paint_card(painter: QPainter, frame: Frame, heading: str, text: str) -> None:
+    """A sentence of any length under its heading, on a card in the middle of the pane."""
+    width = min(CARD, frame.camera.width - 2 * CARD_AIR)
+    wrapped = Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap
+    inner = QRectF(0, 0, width - 2 * CARD_AIR, frame.camera.height)
+    head, body = (
+        QFontMetricsF(face).boundingRect(inner, int(wrapped), words).height()
+        for face, words in ((font(NAME, 600), heading), (font(BODY), text))
+    )
+    card = QRectF(0, 0, width, head + body + 2.5 * CARD_AIR)
+    card.moveCenter(QPointF(frame.camera.width / 2, frame.camera.height / 2))
+    painter.setPen(pen(frame.colours.line))
+    painter.setBrush(colour(frame.colours.panel))
+    painter.drawRoundedRect(card, 6, 6)
+    inner = card.adjusted(CARD_AIR, CARD_AIR, -CARD_AIR, -CARD_AIR)
+    painter.setPen(colour(frame.colours.error))
+    painter.setFont(font(NAME, 600))
+    painter.drawText(inner, wrapped, heading)
+    painter.setPen(colour(frame.colours.text))
+    painter.setFont(font(BODY))
+    painter.drawText(inner.adjusted(0, head + CARD_AIR / 2, 0, 0), wrapped, text)
 
 
 def paint_item(painter: QPainter, frame: Frame, source: PlanSource, item: Item, selected: bool) -> None:

@@ -969,7 +969,7 @@
   </message>
   <message>
    <source>Free space appears here once a survey is planned.</source>
-   <translation>Hier erscheint der Freiraum, sobald eine Aufnahme geplant ist.</translation>
+   <translation>Hier erscheint der Freiraum nach dem Planen.</translation>
   </message>
   <message>
    <source>Free space ends there along a straight line</source>
@@ -1329,7 +1329,7 @@
   </message>
   <message>
    <source>Layout planes appear here once a survey is planned.</source>
-   <translation>Hier erscheinen die Wandebenen, sobald eine Aufnahme geplant ist.</translation>
+   <translation>Hier erscheinen die Wandebenen nach dem Planen.</translation>
   </message>
   <message>
    <source>Layout segments</source>
@@ -1706,6 +1706,10 @@
   <message>
    <source>No input was named.</source>
    <translation>Keine Eingabe wurde genannt.</translation>
+  </message>
+  <message>
+   <source>No plan could be made</source>
+   <translation>Kein Plan möglich</translation>
   </message>
   <message>
    <source>No plan yet.</source>
@@ -3037,7 +3041,7 @@
   </message>
   <message>
    <source>The floor plan appears here once a survey is planned.</source>
-   <translation>Hier erscheint der Grundriss, sobald eine Aufnahme geplant ist.</translation>
+   <translation>Hier erscheint der Grundriss nach dem Planen.</translation>
   </message>
   <message>
    <source>The floor plan as a picture into the clipboard.</source>
