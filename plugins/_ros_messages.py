@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import struct
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 from floorplan_core.api import rotation_from_quaternion
 
 Float = NDArray[np.float64]
+Pose = tuple[float, float, float, float, float, float, float]  # position, quaternion x y z w (of any length)
 
 CLOUD, SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
 ODOMETRY, POSE, TRANSFORM, TF = (
@@ -52,7 +55,10 @@ def points_of(message: Any, msgtype: str) -> NDArray[Any]:
     """(N, 3) finite points of a cloud or planar scan, in the sensor's frame; ValueError where damaged."""
     points = cloud_points(message) if msgtype == CLOUD else scan_points(message)
     with np.errstate(invalid="ignore"):
-        return points[np.isfinite(points).all(axis=1)]
+        if len(points) and np.isfinite(points.min()) and np.isfinite(points.max()):  # both are NaN if any is
+            return points
+        x, y, z = np.isfinite(points).T
+        return points[x & y & z]
 
 
 def cloud_points(message: Any) -> NDArray[Any]:
@@ -69,10 +75,11 @@ def cloud_points(message: Any) -> NDArray[Any]:
     kinds = [order + TYPES[fields[name].datatype] for name in "xyz"]
     offsets = [int(fields[name].offset) for name in "xyz"]
     dtype = np.dtype({"names": list("xyz"), "formats": kinds, "offsets": offsets, "itemsize": step})
-    rows = data[: row * height].reshape(height, row)[:, : step * width]
-    records = np.ascontiguousarray(rows).reshape(-1).view(dtype)
-    kind = np.float32 if all(k.endswith("f4") for k in kinds) else np.float64
-    return np.column_stack([records[name].astype(kind) for name in "xyz"])
+    records = np.ndarray((height, width), dtype, data, strides=(row, step))
+    points = np.empty((height, width, 3), np.float32 if all(k.endswith("f4") for k in kinds) else np.float64)
+    for axis, name in enumerate("xyz"):
+        points[..., axis] = records[name]
+    return points.reshape(-1, 3)
 
 
 def scan_points(message: Any) -> Float:
@@ -85,13 +92,18 @@ def scan_points(message: Any) -> Float:
     return np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))])
 
 
-def matrix(position: Any, rotation: Any) -> Float:
-    """(4, 4) of a ROS position (or translation) and quaternion; :class:`ValueError` where that is none."""
-    q = np.array([rotation.x, rotation.y, rotation.z, rotation.w], dtype=np.float64)
-    t = np.array([position.x, position.y, position.z], dtype=np.float64)
-    norm = float(np.linalg.norm(q))
-    if not (np.isfinite(norm) and norm > MIN_QUATERNION and np.isfinite(t).all()):
+def pose_of(position: Any, rotation: Any) -> Pose:
+    """A ROS position (or translation) and quaternion; :class:`ValueError` where that is no pose."""
+    pose = position.x, position.y, position.z, rotation.x, rotation.y, rotation.z, rotation.w
+    if not (all(map(math.isfinite, pose)) and math.hypot(*pose[3:]) > MIN_QUATERNION):
         raise ValueError("a pose is no rotation with a finite position")
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = rotation_from_quaternion(q[None] / norm)[0], t
+    return pose
+
+
+def matrices(poses: Sequence[Pose]) -> Float:
+    """(N, 4, 4) of poses, all at once: robots tell a hundred a second."""
+    rows = np.array(poses, dtype=np.float64).reshape(-1, 7)
+    T, q = np.tile(np.eye(4), (len(rows), 1, 1)), rows[:, 3:]
+    T[:, :3, :3] = rotation_from_quaternion(q / np.linalg.norm(q, axis=1, keepdims=True))
+    T[:, :3, 3] = rows[:, :3]
     return T

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from floorcast_plugins._ros_messages import Pose, matrices
 
 Float = NDArray[np.float64]
 
@@ -23,16 +23,16 @@ class Edge:
 
     parent: str
     seconds: list[float] = field(default_factory=list)
-    poses: list[Float] = field(default_factory=list)  # (4, 4) T_parent_child
+    poses: list[Pose] = field(default_factory=list)  # T_parent_child
     static: bool = False
 
     def at(self, times: Float) -> tuple[Float, NDArray[np.bool_]]:
         """(N, 4, 4) poses at (N,) ``times``, and where they are known."""
         if self.static or len(self.poses) == 1:
             known = np.full(len(times), True) if self.static else np.abs(times - self.seconds[0]) <= TOLERANCE
-            return np.tile(self.poses[0], (len(times), 1, 1)), known
+            return np.tile(matrices(self.poses[:1]), (len(times), 1, 1)), known
         order = np.argsort(self.seconds, kind="stable")
-        return interpolate(np.array(self.seconds)[order], np.array(self.poses)[order], times)
+        return interpolate(np.array(self.seconds)[order], matrices(self.poses)[order], times)
 
 
 class FrameTree:
@@ -41,7 +41,7 @@ class FrameTree:
     def __init__(self) -> None:
         self.edges: dict[str, Edge] = {}
 
-    def add(self, parent: str, child: str, seconds: float, pose: Float, static: bool) -> None:
+    def add(self, parent: str, child: str, seconds: float, pose: Pose, static: bool) -> None:
         """One observation; the first parent of a frame stays its parent."""
         if parent == child:
             return
@@ -95,8 +95,3 @@ def _between(a: Float, b: Float, share: Float) -> Float:
 
     step = Rotation.from_matrix(np.swapaxes(a, 1, 2) @ b).as_rotvec()
     return np.asarray(a @ Rotation.from_rotvec(share[:, None] * step).as_matrix())
-
-
-def tracks() -> dict[str, Any]:
-    """Odometry and pose topics: seconds, poses, and the frames that they relate."""
-    return defaultdict(lambda: {"seconds": [], "poses": [], "frame": "", "child": ""})

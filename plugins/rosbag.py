@@ -198,16 +198,16 @@ def _take(message: Any, connection: Any, tree: FrameTree, tracks: dict[str, Any]
     """Add a transform to the tree, or a pose to the track of its topic."""
     if connection.msgtype in TRANSFORMS:
         for t in message.transforms:
-            pose = ros.matrix(t.transform.translation, t.transform.rotation)
+            pose = ros.pose_of(t.transform.translation, t.transform.rotation)
             parent, child = ros.clean_frame(t.header.frame_id), ros.clean_frame(t.child_frame_id)
             tree.add(parent, child, ros.seconds_of(t.header.stamp), pose, "static" in connection.topic)
         return
     track = tracks.setdefault(connection.topic, {"type": connection.msgtype, "seconds": [], "poses": []})
     if connection.msgtype == ros.TRANSFORM:
-        pose = ros.matrix(message.transform.translation, message.transform.rotation)
+        pose = ros.pose_of(message.transform.translation, message.transform.rotation)
     else:
         inner = message.pose.pose if connection.msgtype == ros.ODOMETRY else message.pose
-        pose = ros.matrix(inner.position, inner.orientation)
+        pose = ros.pose_of(inner.position, inner.orientation)
     track["seconds"].append(ros.seconds_of(message.header.stamp))
     track["poses"].append(pose)
     track["frame"] = ros.clean_frame(message.header.frame_id)
@@ -262,14 +262,14 @@ def _by_track(
 ) -> _Placed:
     """Poses of an odometry or pose topic, with the sensor's place on the robot where transforms know it."""
     order = np.argsort(track["seconds"], kind="stable")
-    stamps, poses = np.array(track["seconds"])[order], np.array(track["poses"])[order]
+    stamps, poses = np.array(track["seconds"])[order], ros.matrices(track["poses"])[order]
     moved, known = _interpolated(stamps, poses, seconds)
     note = f"The topic {topic} places the scans."
     chain = tree.chain(frame)
     if not in_world and track["child"] in chain[1:]:
         mounted = np.eye(4)
         for child in chain[: chain.index(track["child"])]:
-            mounted = tree.edges[child].poses[0] @ mounted
+            mounted = ros.matrices(tree.edges[child].poses[:1])[0] @ mounted
         return _Placed(moved @ mounted, known, False, note)
     if not in_world and track["child"] not in ("", frame):
         note += f" The sensor {frame} is taken to sit at {track['child']}: no transform says otherwise."
