@@ -49,13 +49,8 @@ from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.manhattan_frame import misfit
 from floorplan_core.stages.region_names import NamesOfRun, RegionNames
 from floorplan_core.stages.regions import connect_doors
-from floorplan_core.stages.storeys import (
-    find_storeys,
-    is_tall,
-    restrict_evidence,
-    restrict_path,
-    restrict_surfels,
-)
+from floorplan_core.stages.storey_evidence import gather_storey
+from floorplan_core.stages.storeys import find_storeys, is_tall, restrict_path, restrict_surfels
 from floorplan_core.stages.voxel_columns import LARGEST, gather_evidence
 from floorplan_core.stages.wings import Part, find_wings, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
@@ -249,9 +244,9 @@ class FloorPlanner:
             self.map.sample() if island is None else surfels.surfels(max(1, len(surfels) // OUTLINE_SURFELS))
         )
         self._make_room_for_plan(surfels, seen, own)
-        found = gather_evidence(surfels, self.map.rays, own, path, self.config.voxels)
-        if self._is_one_of_many():
-            found = restrict_evidence(found, self.storeys()[storey])
+        given = surfels, self.map.rays, own, path, self.config.voxels
+        many = self._is_one_of_many()
+        found = gather_storey(*given, self.storeys()[storey]) if many else gather_evidence(*given)
         return replace(found, frame=frame)
 
     def _largest_of(self, storey: int, frame: ManhattanFrame) -> Evidence:

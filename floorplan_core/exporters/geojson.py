@@ -90,7 +90,7 @@ def _head(plan: FloorPlan) -> Json:
         "storey": plan.storey,
         "source": plan.source,
         "frame_support": _metres(plan.frame.support),
-        "floor_z_m": _metres(plan.frame.floor_z + float(plan.local_frame.shift[2])),
+        "floor_z_m": _floor(plan, 0.0),
         **({"wings": [_wing_head(plan, wing) for wing in plan.wings]} if plan.wings else {}),
     }
 
@@ -105,15 +105,22 @@ def _wing_head(plan: FloorPlan, wing: Wing) -> Json:
     }
 
 
+def _floor(plan: FloorPlan, rise: float) -> float:
+    return _metres(plan.frame.floor_z + rise + float(plan.local_frame.shift[2]))
+
+
 def _regions(plan: FloorPlan, polygons: list[Any]) -> list[Json]:
     """The regions with their outlines and sides, all of whose points are placed at once."""
     outlines = _rings(rounded(polygons, plan.to_world, DECIMALS)) if polygons else []
     sides = [side for region in plan.regions for side in region.sides]
     ends = iter(_points(plan, np.array([(side.start, side.end) for side in sides]).reshape(-1, 2)))
-    return [
+    made = [
         _region(region, outline, [_side(side, [next(ends), next(ends)]) for side in region.sides])
         for region, outline in zip(plan.regions, outlines, strict=True)
     ]
+    for region, feature in zip(plan.regions, made, strict=True):
+        feature["properties"] |= {"floor_z_m": _floor(plan, region.rise)} if region.rise else {}
+    return made
 
 
 def _region(region: Region, outline: list[list[list[float]]], sides: list[Json]) -> Json:

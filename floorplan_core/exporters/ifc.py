@@ -127,13 +127,14 @@ class _Model:
         )
         return self.file.add("IfcSurfaceStyle", name, Word("BOTH"), (shade,))
 
-    def _extruded(self, polygon: Any, height: float, style: Ref | None, layer: str) -> Ref:
-        """The shape of a prism that stands on the floor."""
+    def _extruded(self, polygon: Any, height: float, style: Ref | None, layer: str, rise: float = 0.0) -> Ref:
+        """The shape of a prism that stands on the floor, or ``rise`` above it."""
+        at = self._placed((0.0, 0.0, rise)) if rise else self._zero
         curves = [self._curve(ring) for ring in (polygon.exterior, *polygon.interiors)]
         kind = "IfcArbitraryProfileDefWithVoids" if len(curves) > 1 else "IfcArbitraryClosedProfileDef"
         voids = (tuple(curves[1:]),) if len(curves) > 1 else ()
         profile = self.file.add(kind, Word("AREA"), None, curves[0], *voids)
-        solid = self.file.add("IfcExtrudedAreaSolid", profile, self._zero, self._up, height)
+        solid = self.file.add("IfcExtrudedAreaSolid", profile, at, self._up, height)
         if style is not None:
             self.file.add("IfcStyledItem", solid, (style,), None)
         shape = self.file.add("IfcShapeRepresentation", self._body, "Body", "SweptSolid", (solid,))
@@ -153,7 +154,7 @@ class _Model:
         space = self.file.add(
             "IfcSpace",
             *(self._id("space", region.id), None, region.name, None, None, self._place),
-            self._extruded(region.polygon, height, self._space_style, SPACE_LAYER),
+            self._extruded(region.polygon, height, self._space_style, SPACE_LAYER, region.rise),
             *(display_name(region), Word("ELEMENT"), Word("INTERNAL"), None),
         )
         area = self.file.add("IfcQuantityArea", "NetFloorArea", None, None, round(region.area, 4), None)

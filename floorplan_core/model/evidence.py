@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.model.manhattan import ManhattanFrame
+from floorplan_core.model.storey import HeightMap
 
 Float = NDArray[np.float64]
 Bits = NDArray[np.uint64]
@@ -32,6 +33,7 @@ class Evidence:
     path: Float  # (M, 2) sensor positions, manhattan frame
     inferred: bool  # True: neither rays nor the file told free space; it is guessed from floor and ceiling
     viewpoints: bool  # False: no sensor origins; which way a surface faces is told by the free space
+    floors: HeightMap | None = None  # z of the floor that heights count from, where it is not the frame's
 
     @property
     def shape(self) -> tuple[int, int]:

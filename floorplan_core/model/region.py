@@ -48,6 +48,7 @@ class Region:
     confidence: float = 1.0  # 0 to 1
     rectangles: NDArray[np.int64] | None = None  # rows of the cover
     by_hand: tuple[str, ...] = ()  # what a person did to it: "split", "merged", "label", "name"
+    rise: float = 0.0  # metres from the floor of the storey up to its own; 0 but on half levels
 
     @property
     def area(self) -> float:

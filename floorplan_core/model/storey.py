@@ -39,6 +39,9 @@ class Storey:
     ceiling_z: float | None  # None where no ceiling was seen
     bottom: HeightMap  # what lies below belongs to the storey below
     top: HeightMap  # what lies above belongs to the storey above
+    floors: HeightMap | None = (
+        None  # z of the floor everywhere, where parts lie higher or lower; None: floor_z
+    )
 
     def holds(self, points: Float) -> NDArray[np.bool_]:
         """(N,) which of (N, 3) points, manhattan frame, lie in this storey."""

@@ -33,7 +33,7 @@ _WORTH = 200_000  # surfels from which two threads are faster than one
 def measure_heights(
     regions: tuple[Region, ...], evidence: Evidence, grid: OccupancyGrid
 ) -> tuple[Region, ...]:
-    """The regions with their heights; one whose ceiling was not seen keeps None."""
+    """The regions with their heights, and how high they lie; without a ceiling that was seen None."""
     count = round((_HIGHEST - _LOWEST) / _LEVEL)
     halves = np.zeros((2, len(regions), count), dtype=np.int64)
     labels = _labels(regions, grid)
@@ -44,7 +44,17 @@ def measure_heights(
     in_halves(count_part, len(evidence.xyz), _WORTH)
     levels = halves.sum(axis=0)
     least = _LEAST / evidence.surfel**2
-    return tuple(replace(r, height=_ceiling(row, least)) for r, row in zip(regions, levels, strict=True))
+    measured = (replace(r, height=_ceiling(row, least)) for r, row in zip(regions, levels, strict=True))
+    return tuple(replace(r, rise=_rise(labels == k, evidence, grid)) for k, r in enumerate(measured))
+
+
+def _rise(cells: NDArray[np.bool_], evidence: Evidence, grid: OccupancyGrid) -> float:
+    """Metres from the storey's floor to that of most of the ``cells`` (ny, nx)."""
+    if evidence.floors is None or not cells.any():
+        return 0.0
+    iy, ix = np.nonzero(cells)
+    at = grid.origin + grid.cell * (np.column_stack([ix, iy]) + 0.5)
+    return float(np.median(evidence.floors.at(at))) - evidence.frame.floor_z
 
 
 @njit(cache=True, nogil=True)

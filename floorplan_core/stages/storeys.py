@@ -12,22 +12,19 @@ Cost: one pass over the surfels, and nothing for surveys that are too low for tw
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import StoreysConfig
 from floorplan_core.geometry.cell_normals import fit_cell_normals
-from floorplan_core.geometry.columns import LEVEL, LEVELS
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.model import ManhattanFrame
-from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.storey import HeightMap, Storey
 from floorplan_core.stages.manhattan_frame import floor_and_ceiling
 from floorplan_core.stages.slab_faces import inner_faces
+from floorplan_core.stages.slabs import Level, Slab, with_half_levels
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -43,48 +40,12 @@ _LEVEL_SHARE = 0.1  # of the largest level: smaller ones are no slabs, only tabl
 _OVERLAP = 0.3  # share of the smaller of two levels that lies over the other
 _WALL_SHARE = 0.4  # of the walls below a slab that must stand above it where no ceiling was seen there
 _BESIDE = 0.2  # share of overlap up to which two slabs lie beside each other
-_THICK = 0.12  # m, a thinner slab has only one level: both storeys get its points
-_MARGIN = 0.06  # m around such a level: its noise
 _FLAT, _STEEP = math.cos(math.radians(20)), math.sin(math.radians(15))  # |z| of normals of floors and walls
 _WALL_BAND = (0.3, 2.2)  # m from a floor, where walls are looked for
+_SHARP = 0.1  # m, cells in which a place has the height of the nearest level
+_LIKE = 0.3  # m: floors that differ by less are one
 _PIECE = 1 << 20  # surfels that are looked at together
 _ENDS = (0.002, 0.998)  # quantiles of height: the rest are ghosts
-
-
-@dataclass(frozen=True)
-class _Level:
-    """A horizontal surface: where it was seen, and how high."""
-
-    z: float
-    seen: Mask  # (ny, nx)
-
-    @property
-    def size(self) -> int:
-        return int(np.count_nonzero(self.seen))
-
-
-@dataclass(frozen=True)
-class _Slab:
-    """Ceiling of one storey and floor of the next."""
-
-    ceiling: float
-    floor: float
-    seen: Mask  # (ny, nx) where either was seen
-    common: int  # cells in which both were
-
-    @property
-    def lower_end(self) -> float:
-        """Height at which the storey above begins."""
-        return self.ceiling - _MARGIN if self.floor - self.ceiling < _THICK else self._middle
-
-    @property
-    def upper_end(self) -> float:
-        """Height at which the storey below ends."""
-        return self.floor + _MARGIN if self.floor - self.ceiling < _THICK else self._middle
-
-    @property
-    def _middle(self) -> float:
-        return (self.ceiling + self.floor) / 2
 
 
 def is_tall(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig) -> bool:
@@ -105,17 +66,23 @@ def find_storeys(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig)
     slabs = _slabs(raster, config)
     if not slabs:
         return (only,)
-    ends = [
-        (HeightMap.constant(-np.inf), raster.map([s.upper_end for s in slabs[0]], slabs[0])),
-        *(
-            (raster.map([s.lower_end for s in a], a), raster.map([s.upper_end for s in b], b))
-            for a, b in pairwise(slabs)
-        ),
-        (raster.map([s.lower_end for s in slabs[-1]], slabs[-1]), HeightMap.constant(np.inf)),
-    ]
-    bare = [replace(only, number=k, bottom=b, top=t) for k, (b, t) in enumerate(ends)]
     xyz = surfels.centroid @ frame.rotation.T
-    return tuple(_with_levels(s, surfels, s.holds(xyz), frame) for s in bare)
+    plain = _between(slabs, only, raster)
+    measured = [_with_levels(s, surfels, s.holds(xyz), frame) for s in plain]
+    stepped = with_half_levels(slabs, raster.levels(), config.min_height)
+    ends = _between(stepped, only, raster)
+    bare = [replace(s, bottom=e.bottom, top=e.top) for s, e in zip(measured, ends, strict=True)]
+    return tuple(_with_steps(s, stepped, raster) for s in bare)
+
+
+def _between(slabs: list[list[Slab]], only: Storey, raster: _Raster) -> list[Storey]:
+    """The storeys that the slabs part."""
+    below, above = HeightMap.constant(-np.inf), HeightMap.constant(np.inf)
+    bottoms = [below, *(raster.map([(s, s.lower_end) for s in group]) for group in slabs)]
+    tops = [*(raster.map([(s, s.upper_end) for s in group]) for group in slabs), above]
+    return [
+        replace(only, number=k, bottom=b, top=t) for k, (b, t) in enumerate(zip(bottoms, tops, strict=True))
+    ]
 
 
 def restrict_surfels(surfels: SurfelMap, frame: ManhattanFrame, storey: Storey) -> SurfelMap:
@@ -129,20 +96,16 @@ def restrict_path(path: Float, frame: ManhattanFrame, storey: Storey) -> Float:
     return path[storey.holds(frame.to_manhattan(path))] if len(path) else path
 
 
-def restrict_evidence(evidence: Evidence, storey: Storey) -> Evidence:
-    """Without the free space of other storeys: rays of those above lie within the columns, too, and beside a
-    step in the slab so do those of the one below."""
-    ny, nx = evidence.shape
-    y, x = np.mgrid[0:ny, 0:nx] + 0.5
-    centres = np.column_stack([x.ravel(), y.ravel()]) * evidence.cell + evidence.origin
-
-    def up_to(heights: HeightMap) -> NDArray[np.uint64]:
-        levels = (heights.at(centres) - evidence.frame.floor_z) / LEVEL
-        count = np.clip(np.nan_to_num(levels, posinf=LEVELS), 0, LEVELS).astype(np.uint64)
-        return ((np.uint64(1) << count) - np.uint64(1)).reshape(ny, nx)
-
-    own = up_to(storey.top) & ~up_to(storey.bottom)
-    return replace(evidence, free=evidence.free & own, occupied=evidence.occupied & own)
+def _with_steps(storey: Storey, slabs: list[list[Slab]], raster: _Raster) -> Storey:
+    """``storey`` with the heights of its floor everywhere, where parts of it lie higher or lower."""
+    k = storey.number
+    floors = [(s, s.floor) for s in slabs[k - 1] if not s.roof] if k else []
+    if k < len(slabs):
+        floors += [(s, s.under) for s in slabs[k] if s.under is not None and (s.roof or not k)]
+    floors = [(s, z if abs(z - storey.floor_z) > _LIKE else storey.floor_z) for s, z in floors]
+    if all(z == storey.floor_z for _, z in floors):
+        return storey
+    return replace(storey, floors=raster.map(floors))
 
 
 def _only_storey(frame: ManhattanFrame) -> Storey:
@@ -173,6 +136,7 @@ class _Raster:
     shape: tuple[int, int]  # ny, nx
     flat_cell: NDArray[np.int64]  # (F,) cell of each horizontal patch
     flat_z: Float  # (F,) metres
+    flat_xy: Float  # (F, 2) its middle, metres
     wall_cell: NDArray[np.int64]  # (W,) of each vertical patch
     wall_z: Float  # (W,)
 
@@ -190,15 +154,15 @@ class _Raster:
         index = ((xyz[:, :2] - origin) / _COLUMN).astype(np.int64)
         nx, ny = (int(n) + 1 for n in index.max(axis=0))
         cell, flat, wall = index[:, 1] * nx + index[:, 0], upright > _FLAT, upright < _STEEP
-        return _Raster(origin, (ny, nx), cell[flat], xyz[flat, 2], cell[wall], xyz[wall, 2])
+        return _Raster(origin, (ny, nx), cell[flat], xyz[flat, 2], xyz[flat, :2], cell[wall], xyz[wall, 2])
 
-    def level(self, z: float) -> _Level:
+    def level(self, z: float) -> Level:
         """The horizontal surface around a height."""
         near = np.abs(self.flat_z - z) < _LEVEL_REACH
         seen = np.abs(self.flat_z - z) < _SEEN_REACH
-        return _Level(float(self.flat_z[near].mean()) if near.any() else z, self._mask(self.flat_cell[seen]))
+        return Level(float(self.flat_z[near].mean()) if near.any() else z, self._mask(self.flat_cell[seen]))
 
-    def levels(self) -> list[_Level]:
+    def levels(self) -> list[Level]:
         """The large horizontal surfaces, rising."""
         if len(self.flat_z) == 0:
             return []
@@ -220,18 +184,21 @@ class _Raster:
         between = (self.wall_z > low) & (self.wall_z < high)
         return int(np.count_nonzero(where.ravel()[self.wall_cell[between]]))
 
-    def map(self, heights: Sequence[float], slabs: Sequence[_Slab]) -> HeightMap:
-        """Everywhere the height of the nearest of ``slabs``."""
-        if len(slabs) == 1:
-            return HeightMap.constant(heights[0])
+    def map(self, pieces: list[tuple[Slab, float]]) -> HeightMap:
+        """Everywhere the height that goes with the nearest of the slabs."""
+        if len({height for _, height in pieces}) == 1:
+            return HeightMap.constant(pieces[0][1])
         from scipy.ndimage import distance_transform_edt
 
-        owner = np.full(self.shape, -1)
-        for k, slab in enumerate(slabs):
-            owner[slab.seen] = k
+        fine = round(_COLUMN / _SHARP)
+        owner = np.full((fine * self.shape[0], fine * self.shape[1]), -1)
+        for k, (slab, _) in enumerate(pieces):
+            inside = slab.seen.ravel()[self.flat_cell] & slab.is_at(self.flat_z, _SEEN_REACH)
+            ix, iy = np.floor((self.flat_xy[inside] - self.origin) / _SHARP).astype(np.int64).T
+            owner[iy, ix] = k
         _, (iy, ix) = distance_transform_edt(owner < 0, return_indices=True)
-        height = np.array(heights)[owner[iy, ix]]
-        return HeightMap(height, (float(self.origin[0]), float(self.origin[1])), _COLUMN)
+        height = np.array([height for _, height in pieces])[owner[iy, ix]]
+        return HeightMap(height, (float(self.origin[0]), float(self.origin[1])), _SHARP)
 
     def _mask(self, cells: NDArray[np.int64]) -> Mask:
         mask = np.zeros(self.shape, dtype=bool)
@@ -239,7 +206,7 @@ class _Raster:
         return mask
 
 
-def _slabs(raster: _Raster, config: StoreysConfig) -> list[list[_Slab]]:
+def _slabs(raster: _Raster, config: StoreysConfig) -> list[list[Slab]]:
     """Between each storey and the next: the slab, in pieces where it has steps. Lowest first."""
     levels = raster.levels()
     least = config.min_share * max((level.size for level in levels), default=0)
@@ -251,7 +218,7 @@ def _slabs(raster: _Raster, config: StoreysConfig) -> list[list[_Slab]]:
     ]
     # two levels are better than one, more common ground is better than less, ties go to the lower slab
     found.sort(key=lambda s: (s.ceiling == s.floor, -s.common, s.ceiling))
-    chosen: list[_Slab] = []
+    chosen: list[Slab] = []
     for slab in found:
         if not any(_same_place(slab, other, config.min_height) for other in chosen):
             chosen.append(slab)
@@ -259,20 +226,21 @@ def _slabs(raster: _Raster, config: StoreysConfig) -> list[list[_Slab]]:
 
 
 def _slab(
-    c: _Level, f: _Level, levels: list[_Level], raster: _Raster, config: StoreysConfig, least: float
-) -> _Slab | None:
+    c: Level, f: Level, levels: list[Level], raster: _Raster, config: StoreysConfig, least: float
+) -> Slab | None:
     """The slab between two levels (or of one), where there is a room below and a room above it."""
     common = c.seen & f.seen
     if min(c.size, f.size) < least or _overlap(c, f) < _OVERLAP:
         return None
-    has_floor = any(b.z <= c.z - config.min_height and _overlap(b, c) >= _OVERLAP for b in levels)
+    floors = [b for b in levels if b.z <= c.z - config.min_height and _overlap(b, c) >= _OVERLAP]
     has_ceiling = any(a.z >= f.z + config.min_height and _overlap(a, f) >= _OVERLAP for a in levels)
-    if not has_floor or not (has_ceiling or _walls_above(c, f, raster)):
+    if not floors or not (has_ceiling or _walls_above(c, f, raster)):
         return None
-    return _Slab(c.z, f.z, c.seen | f.seen, int(np.count_nonzero(common)))
+    under = max(floors, key=lambda b: int(np.count_nonzero(b.seen & c.seen)))  # the lowest of equals
+    return Slab(c.z, f.z, c.seen | f.seen, int(np.count_nonzero(common)), under.z)
 
 
-def _walls_above(c: _Level, f: _Level, raster: _Raster) -> bool:
+def _walls_above(c: Level, f: Level, raster: _Raster) -> bool:
     """True where walls stand above a slab as they do below it."""
     from scipy.ndimage import binary_dilation
 
@@ -282,21 +250,21 @@ def _walls_above(c: _Level, f: _Level, raster: _Raster) -> bool:
     return above > _WALL_SHARE * below > 0
 
 
-def _overlap(a: _Level, b: _Level) -> float:
+def _overlap(a: Level, b: Level) -> float:
     """Common cells of two levels, as a share of the smaller."""
     return int(np.count_nonzero(a.seen & b.seen)) / max(1, min(a.size, b.size))
 
 
-def _same_place(a: _Slab, b: _Slab, height: float) -> bool:
+def _same_place(a: Slab, b: Slab, height: float) -> bool:
     """True where no storey fits between two slabs, one above the other."""
     smaller = min(int(np.count_nonzero(a.seen)), int(np.count_nonzero(b.seen)))
     beside = int(np.count_nonzero(a.seen & b.seen)) <= _BESIDE * smaller
     return abs(a.floor - b.floor) < height and not beside
 
 
-def _grouped(slabs: list[_Slab], height: float) -> list[list[_Slab]]:
+def _grouped(slabs: list[Slab], height: float) -> list[list[Slab]]:
     """Rising slabs; those that lie beside each other at nearly the same height are one with steps."""
-    groups: list[list[_Slab]] = []
+    groups: list[list[Slab]] = []
     for slab in slabs:
         if groups and slab.floor - groups[-1][0].floor < height:
             groups[-1].append(slab)

@@ -11,7 +11,7 @@ from floorplan_core.geometry.columns import height_mask
 from floorplan_core.model import ManhattanFrame, PointChunk, Reconstruction, Trajectory
 from floorplan_core.model.storey import HeightMap, Storey
 from floorplan_core.pipeline import FloorPlanner, process, process_storeys
-from floorplan_core.stages.storeys import restrict_evidence
+from floorplan_core.stages.storey_evidence import restrict_evidence
 from tests.box_world import room, rotation, stations, survey
 from tests.drawn_cells import seen_free
 
