@@ -9,10 +9,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Literal
 
-import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from floorplan_core.errors import UsageError
+from floorplan_core.plain_yaml import parse_yaml, read_yaml
 
 
 def setting(default: Any, unit: str, description: str, **bounds: Any) -> Any:
@@ -342,11 +342,11 @@ class Config(Section):
     def load(cls, path: Path) -> Config:
         """Read a YAML file of ``stage: {field: value}``; what is not named keeps its default."""
         try:
-            data = yaml.safe_load(path.read_text(encoding="utf-8"))
+            data = read_yaml(path)
         except OSError as error:
             raise UsageError(f"Cannot read the configuration {path.name}: {error.strerror}.") from error
-        except (yaml.YAMLError, UnicodeDecodeError) as error:
-            raise UsageError(f"{path.name} is not valid YAML: {str(error).splitlines()[0]}.") from error
+        except ValueError as error:
+            raise UsageError(f"{path.name} is not valid YAML: {error}.") from error
         return cls.from_dict({} if data is None else data)
 
     @classmethod
@@ -368,5 +368,8 @@ class Config(Section):
             stage, _, field = name.partition(".")
             if stage not in data or field not in data[stage]:
                 raise UsageError(f"There is no setting {name!r}; 'floorcast settings' lists them all.")
-            data[stage][field] = yaml.safe_load(text) if isinstance(text, str) else text
+            try:
+                data[stage][field] = parse_yaml(text) if isinstance(text, str) else text
+            except ValueError as error:
+                raise UsageError(f"Setting {name}: {text[:60]!r} is not valid YAML: {error}.") from error
         return type(self).from_dict(data)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import struct
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from floorplan_core.errors import InputError, UsageError
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED
 from floorplan_core.readers.grid_map import is_grid_map, read_grid_map
 from tests.grid_map.map_drawings import office, write_image, write_yaml
+from tests.plugins.plugin_files import peak_memory
 
 
 def picture(path: Path, rows: list[list[int]], mode: str = "L") -> Path:
@@ -96,14 +100,70 @@ def test_resolution_that_is_no_length(tmp_path: Path, value: float) -> None:
         ("resolution: 0.05\n", "does not say image"),
         ("- 1\n- 2\n", "does not say image and resolution"),
         ("image: [\n", "does not say image"),
+        ("image: ../m.pgm\nresolution: 0.05\n", "outside its own folder"),
+        ("image: /dev/zero\nresolution: 0.05\n", "zero does not exist beside"),
+        ("image: link.pgm\nresolution: 0.05\n", "outside its own folder"),
+        ("image: pipe.pgm\nresolution: 0.05\n", "pipe.pgm does not exist beside"),
+        ("image: m.pgm\nresolution: 1" + "0" * 400, "damaged map YAML"),
+        ("image: m.pgm\nresolution: 1" + "0" * 9000, "does not say image"),
+        ("image: [m.pgm]\nresolution: 0.05\n", "no name of a file"),
+        ("a: &a [m]\nimage: [*a, *a]\nresolution: 0.05\n", "does not say image"),  # laughs
+        ("image: m.pgm\nresolution: 0.05\norigin: " + "[" * 5000 + "]" * 5000, "does not say image"),
+        ("image: m.pgm\nresolution: 2001-99-99\n", "does not say image"),
+        ("image: !!python/object/apply:os.getcwd []\nresolution: 0.05\n", "does not say image"),
+        ("image: m.pgm\nresolution: 0.05\n#" + "x" * (1 << 20), "does not say image"),
     ],
 )
 def test_damaged_yaml_is_one_sentence(tmp_path: Path, text: str, words: str) -> None:
-    picture(tmp_path / "m.pgm", [[254]])
-    (tmp_path / "m.yaml").write_text(text, encoding="utf-8")
+    for folder in (tmp_path, tmp_path / "map"):
+        folder.mkdir(exist_ok=True)
+        picture(folder / "m.pgm", [[254]])
+    (tmp_path / "map" / "link.pgm").symlink_to(tmp_path / "m.pgm")
+    os.mkfifo(tmp_path / "map" / "pipe.pgm")
+    (tmp_path / "map" / "m.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=words) as caught:
-        read_grid_map(tmp_path / "m.yaml")
+        read_grid_map(tmp_path / "map" / "m.yaml")
     assert "\n" not in str(caught.value)
+
+
+def test_a_map_saved_elsewhere_under_its_whole_path(tmp_path: Path) -> None:
+    picture(tmp_path / "m.pgm", [[254]])
+    (tmp_path / "m.yaml").write_text("image: /home/robot/maps/m.pgm\nresolution: 0.05\n", encoding="utf-8")
+    assert read_grid_map(tmp_path / "m.yaml").states.tolist() == [[FREE]]
+
+
+def png_of_zeros(path: Path, width: int, height: int) -> Path:
+    """A tiny file of many black pixels."""
+
+    def part(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    packer = zlib.compressobj(9)
+    rows = b"".join(packer.compress(bytes(1 + width)) for _ in range(min(height, 10_000))) + packer.flush()
+    head = struct.pack(">2I5B", width, height, 8, 0, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + part(b"IHDR", head) + part(b"IDAT", rows) + part(b"IEND", b""))
+    return path
+
+
+@pytest.mark.parametrize("side", [10_001, 14_000, 100_000])
+def test_a_picture_of_too_many_pixels_is_refused_before_it_is_unpacked(
+    tmp_path: Path, side: int, recwarn: pytest.WarningsRecorder
+) -> None:
+    path = png_of_zeros(tmp_path / "m.png", side, side)
+    before = peak_memory(reset=True)
+    with pytest.raises(InputError, match=r"m\.png has more than 100,000,000 pixels"):
+        read_grid_map(path, 0.05)
+    assert peak_memory() - before < 50 << 20
+    assert not recwarn.list
+
+
+@pytest.mark.parametrize("mode", ["L", "RGBA"])
+def test_a_large_picture_takes_little_more_than_its_cells(tmp_path: Path, mode: str) -> None:
+    side = 3000
+    Image.new(mode, (side, side), 254 if mode == "L" else (254, 254, 254, 255)).save(tmp_path / "m.png")
+    before = peak_memory(reset=True)
+    assert (read_grid_map(tmp_path / "m.png", 0.05).states == FREE).all()
+    assert peak_memory() - before < 12 * side**2
 
 
 def test_damaged_picture(tmp_path: Path) -> None:
