@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from floorcast_app.actions.registry import Action, with_plan
 from floorcast_app.selection import Item
-from floorcast_app.view_state import LAYERS, POINT_COLOURS
+from floorcast_app.view_state import LAYERS, POINT_COLOURS, Look
 from floorplan_core.errors import UsageError
 
 if TYPE_CHECKING:
@@ -20,15 +21,21 @@ SMALLEST = 120.0  # pixels: in a smaller pane nothing can be fitted
 
 def fit(workbench: Workbench) -> None:
     """Bring the whole plan into view."""
-    plan = workbench.plan
-    assert plan is not None
-    boxes = [r.polygon.bounds for r in plan.regions]
-    x0, y0 = min(b[0] for b in boxes), min(b[1] for b in boxes)
-    x1, y1 = max(b[2] for b in boxes), max(b[3] for b in boxes)
+    assert workbench.plan is not None
+    x0, y0, x1, y1 = workbench.plan.bounds
     span = _span(workbench.view.room, x1 - x0 + 2 * WALL, y1 - y0 + 2 * WALL)
     centre = (x0 + x1) / 2, (y0 + y1) / 2
     workbench.view.fitted = centre, span
     workbench.view.set(centre=centre, span=span)
+
+
+def pictured(workbench: Workbench, look: Look, room: tuple[float, float], scale_bar: bool | None) -> Look:
+    """``look`` for a picture of ``room`` pixels: a plan that fills its pane fills the picture, too."""
+    look = look if scale_bar is None else replace(look, scale_bar=scale_bar)
+    if workbench.plan is None or not workbench.view.is_fitted:
+        return look
+    x0, y0, x1, y1 = workbench.plan.bounds
+    return replace(look, span=_span(room, x1 - x0 + 2 * WALL, y1 - y0 + 2 * WALL))
 
 
 def _span(room: tuple[float, float] | None, width: float, height: float) -> float:

@@ -26,6 +26,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from floorcast_app import theme
+from floorcast_app.actions.view_actions import pictured
 from floorcast_app.layers.partial import partial_layer
 from floorcast_app.panels.item_menu import item_menu
 from floorcast_app.selection import Item
@@ -111,7 +112,7 @@ class PlanCanvas(QWidget):
         """The pane as an image of ``width`` x ``height`` pixels; None: a scale bar where the look has it."""
         self._catch_up()
         image = QImage(width, height, QImage.Format.Format_ARGB32_Premultiplied)
-        look = self._look() if scale_bar is None else replace(self._look(), scale_bar=scale_bar)
+        look = pictured(self.workbench, self._look(), (width, height), scale_bar)
         frame = Frame(Camera.of(look, width, height), theme.colours(), look)
         painter = QPainter(image)
         self._paint_ground(painter, frame)
@@ -235,8 +236,7 @@ class PlanCanvas(QWidget):
             paint_scale(painter, frame)
             return
         if self._drawing is None:
-            middle = (frame.camera.width / 2, frame.camera.height / 2)
-            draw_text(painter, tr(self.empty), middle, BODY, colour(frame.colours.muted))
+            draw_text(painter, tr(self.empty), frame.camera.middle, BODY, colour(frame.colours.muted))
             return
         source, selection = self._drawing.source, self.workbench.selection
         for item in selection.items:

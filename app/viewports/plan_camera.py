@@ -33,6 +33,11 @@ class Camera:
         """The camera of ``look`` in a pane of this size."""
         return Camera(look.centre, max(min(width, height), 1.0) / look.span, width, height)
 
+    @property
+    def middle(self) -> Point:
+        """Of the pane, pixels."""
+        return self.width / 2, self.height / 2
+
     def to_screen(self, xy: Float) -> Float:
         """(..., 2) metres to (..., 2) pixels."""
         p = np.asarray(xy, dtype=np.float64)

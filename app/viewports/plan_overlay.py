@@ -53,7 +53,7 @@ def paint_card(painter: QPainter, frame: Frame, heading: str, text: str) -> None
         for face, words in ((font(NAME, 600), heading), (font(BODY), text))
     )
     card = QRectF(0, 0, width, head + body + 2.5 * CARD_AIR)
-    card.moveCenter(QPointF(frame.camera.width / 2, frame.camera.height / 2))
+    card.moveCenter(QPointF(*frame.camera.middle))
     painter.setPen(pen(frame.colours.line))
     painter.setBrush(colour(frame.colours.panel))
     painter.drawRoundedRect(card, 6, 6)
@@ -149,14 +149,14 @@ def _free_place(
 def paint_pins(
     painter: QPainter, frame: Frame, source: PlanSource, items: tuple[Item, ...], names: dict[str, QRectF]
 ) -> None:
-    """A pin on everything that a person corrected; that of a region stands on its name."""
+    """A pin on everything that a person corrected; that of a region stands on its name, others off names."""
     for item in items:
-        at = anchor(source, item)
-        if at is None:
-            continue
-        x, y = frame.camera.point(*at)
         if item.kind == "region" and item.id in names:
             x, y = names[item.id].center().x(), names[item.id].top() - 1
+        elif (at := anchor(source, item)) is not None:
+            x, y = _pin_place(frame, item_shape(source, item).bounds or (*at, *at), tuple(names.values()))
+        else:
+            continue
         painter.setPen(pen(frame.colours.accent, 1.6))
         painter.drawLine(QPointF(x, y), QPointF(x, y - 2 * PIN))
         painter.setPen(pen(frame.colours.panel, 1.4))
@@ -164,6 +164,18 @@ def paint_pins(
         painter.drawEllipse(QPointF(x, y - 2 * PIN), PIN, PIN)
         painter.setBrush(colour(frame.colours.panel))
         painter.drawEllipse(QPointF(x, y - 2 * PIN), PIN / 4, PIN / 4)
+
+
+def _pin_place(frame: Frame, bounds: tuple[float, float, float, float], names: Sequence[QRectF]) -> Point:
+    """The foot of a pin (pixels) along a wall or door, near its middle, where it hides no name if it can."""
+    (x0, y0), (x1, y1) = frame.camera.point(*bounds[:2]), frame.camera.point(*bounds[2:])
+    feet = [(x0 + share * (x1 - x0), y0 + share * (y1 - y0)) for share in PLACES]
+    free = (
+        (x, y)
+        for x, y in feet
+        if not any(QRectF(x - PIN, y - 3 * PIN, 2 * PIN, 3 * PIN).intersects(name) for name in names)
+    )
+    return next(free, feet[0])
 
 
 def paint_marks(painter: QPainter, frame: Frame, marks: tuple[Mark, ...]) -> None:

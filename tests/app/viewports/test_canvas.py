@@ -13,11 +13,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
 from floorcast_app import theme
+from floorcast_app.actions.view_actions import fit, pictured
 from floorcast_app.layers.planes import plane_shape
 from floorcast_app.selection import Item
 from floorcast_app.view_state import Look, turned_only
 from floorcast_app.viewports.floor_plan_view import FloorPlanView
 from floorcast_app.viewports.free_space_view import FreeSpaceView
+from floorcast_app.viewports.plan_camera import Camera
 from floorcast_app.viewports.planes_view import PlanesView
 from tests.app.plan_panes import NO_KEYS, click, drag, metres, move, opened, pixel
 
@@ -242,9 +244,21 @@ def test_a_picture_is_of_the_present_plan_even_before_it_is_built(qtbot, workben
     qtbot.addWidget(pane)
     workbench.plan = drawn.plan
     workbench.view.put(drawn.view.look)
+    workbench.view.fitted = drawn.view.fitted
     workbench.plan_changed.emit(drawn.plan)
     late = array(pane.picture(400, 300))
     assert (late == array(again.picture(400, 300))).all()
+
+
+@pytest.mark.parametrize("size", [(1600, 500), (400, 900)])
+def test_a_plan_that_fills_its_pane_fills_a_picture_of_another_shape(drawn, size):
+    fit(drawn)
+    shown = Camera.of(pictured(drawn, drawn.view.look, size, None), *size).visible
+    x0, y0, x1, y1 = drawn.plan.bounds
+    assert shown[0] < x0 and shown[1] < y0 and shown[2] > x1 and shown[3] > y1
+    drawn.view.set(span=2.0)  # looked at closely: so is the picture
+    assert pictured(drawn, drawn.view.look, size, None) == drawn.view.look
+    fit(drawn)
 
 
 def test_dark_is_darker(qtbot, drawn):
