@@ -19,8 +19,13 @@ _HOMES = {
     "FloorPlan": "floorplan_core.model",
     "FloorPlanner": "floorplan_core.pipeline",
     "FloorPlanError": "floorplan_core.errors",
+    "export": "floorplan_core.plan_files",
+    "load_plan": "floorplan_core.plan_files",
+    "occupancy_map": "floorplan_core.exporters.ros_map",
     "open_survey": "floorplan_core.surveys",
+    "plan_to_geojson": "floorplan_core.exporters.geojson",
     "process": "floorplan_core.pipeline",
+    "warm_up": "floorplan_core.warm_up",
 }
 __all__ = [
     "Config",
@@ -29,17 +34,26 @@ __all__ = [
     "FloorPlanError",
     "FloorPlanner",
     "__version__",
+    "export",
+    "load_plan",
+    "occupancy_map",
     "open_survey",
+    "plan_to_geojson",
     "process",
+    "warm_up",
 ]
 
 if TYPE_CHECKING:
     from floorplan_core.config import Config
     from floorplan_core.drift.online import CorrectingPlanner
     from floorplan_core.errors import FloorPlanError
+    from floorplan_core.exporters.geojson import plan_to_geojson
+    from floorplan_core.exporters.ros_map import occupancy_map
     from floorplan_core.model import FloorPlan
     from floorplan_core.pipeline import FloorPlanner, process
+    from floorplan_core.plan_files import export, load_plan
     from floorplan_core.surveys import open_survey
+    from floorplan_core.warm_up import warm_up
 
 
 def __getattr__(name: str) -> Any:

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import Config, FrameConfig, VoxelConfig
-from floorplan_core.errors import InputError
 from floorplan_core.geometry.lattice import lattice_spacing, subdivide
 from floorplan_core.geometry.own_frame import OwnFrame, own_frame
 from floorplan_core.geometry.planar import is_planar, lift
@@ -26,11 +25,10 @@ from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
 from floorplan_core.memory import free_memory
 from floorplan_core.model import ManhattanFrame, PointChunk, Trajectory
+from floorplan_core.scan_checks import Points, Scan, checked_points, checked_pose, checked_rows, in_world
 from floorplan_core.stages.manhattan_frame import estimate_frame, seen_from
 
 Float = NDArray[np.float64]
-Points = NDArray[np.float64] | NDArray[np.float32]
-Scan = tuple[Points, NDArray[np.int32], Float]  # points, the row of the origins that saw each, origins
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
@@ -76,15 +74,13 @@ class SurveyMap:
 
     def integrate(self, points: Float, T_world_sensor: Float | None = None) -> None:
         """Add one scan: (N, 3) metres in the sensor frame, or in the world where no pose (4, 4) is given."""
-        pts = np.asarray(points).reshape(-1, 3)
+        pts = checked_points(points)
         if T_world_sensor is None:
             self._integrate(pts, np.full(len(pts), -1, dtype=np.int32), np.zeros((0, 3)))
             return
         pose = checked_pose(T_world_sensor)
-        with np.errstate(invalid="ignore"):  # what is not a number is left out later
-            world = pts @ pose[:3, :3].T + pose[:3, 3]
         self._path.append(pose[None, :3, 3])
-        self._integrate(world, np.zeros(len(pts), dtype=np.int32), pose[None, :3, 3])
+        self._integrate(in_world(pts, pose), np.zeros(len(pts), dtype=np.int32), pose[None, :3, 3])
 
     def integrate_chunk(self, chunk: PointChunk, trajectory: Trajectory | None) -> None:
         """Add points that are in the local frame already; ``chunk.scan_id`` are rows of ``trajectory``.
@@ -222,25 +218,6 @@ class SurveyMap:
             np.ascontiguousarray(scan, dtype=np.int32),
             np.ascontiguousarray(origins, dtype=np.float64),
         )
-
-
-def checked_pose(T_world_sensor: Float) -> Float:
-    """The pose (4, 4); :class:`InputError` where it is none."""
-    pose = np.asarray(T_world_sensor, dtype=np.float64)
-    if pose.shape != (4, 4) or not np.isfinite(pose).all():
-        raise InputError(f"A pose must be a 4 x 4 matrix of finite numbers (given {pose.tolist()}).")
-    return pose
-
-
-def checked_rows(scan_id: NDArray[np.int32], trajectory: Trajectory) -> tuple[int, int]:
-    """First and last row that points refer to; :class:`InputError` where the trajectory has no such row."""
-    first, last = int(scan_id.min()), int(scan_id.max())
-    if first < 0 or last >= len(trajectory):
-        raise InputError(
-            f"Points refer to the scans {first} to {last}, the trajectory has the rows 0 to "
-            f"{len(trajectory) - 1}; give the trajectory of this survey."
-        )
-    return first, last
 
 
 def _room(config: VoxelConfig) -> float | None:

@@ -11,6 +11,7 @@ import pytest
 import shapely
 
 from floorplan_core.config import Config
+from floorplan_core.drift.online import CorrectingPlanner
 from floorplan_core.errors import InputError
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.geometry import ray_carving, surfel_map
@@ -286,6 +287,78 @@ def test_rows_that_the_trajectory_has_not_are_refused(ids):
 def test_what_is_no_pose_is_refused(pose):
     with pytest.raises(InputError, match="4 x 4 matrix of finite numbers"):
         FloorPlanner().integrate(np.ones((5, 3)), pose)
+
+
+SHEARED, MIRRORED = np.eye(4), np.diag([-1.0, 1.0, 1.0, 1.0])
+SHEARED[0, 1] = 0.1
+
+
+@pytest.mark.parametrize("planner", [FloorPlanner, CorrectingPlanner])
+@pytest.mark.parametrize(
+    "pose",
+    [SHEARED, MIRRORED, np.diag([1e3, 1e3, 1e3, 1.0]), np.array([*np.eye(4)[:3], [1.0, 2.0, 3.0, 1.0]])],
+)
+def test_a_pose_that_is_no_motion_is_refused(planner, pose):
+    with pytest.raises(InputError, match="A pose must be a rotation"):
+        planner().integrate(np.ones((5, 3)), pose)
+
+
+@pytest.mark.parametrize("planner", [FloorPlanner, CorrectingPlanner])
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.ones((6, 4)),  # with intensity: six points, not eight
+        np.ones((3, 100)),
+        np.zeros(5, dtype=[("x", "f4"), ("y", "f4"), ("z", "f4")]),
+        "points",
+        [[1.0, 2.0, 3.0], [1.0, 2.0]],
+    ],
+)
+def test_what_are_no_points_is_refused(planner, points):
+    with pytest.raises(InputError, match=r"must be numbers in rows of three, \(N, 3\)"):
+        planner().integrate(points, np.eye(4))
+
+
+def _as_it_is(points, pose):
+    return points, pose
+
+
+def _with_what_is_none(points, pose):
+    none = [[np.nan] * 3, [np.inf, 0, 0], [0, -np.inf, np.nan], [1e30, 0, 0], [0, 0, 0]]
+    return np.vstack([points, none]), pose
+
+
+def _as_an_image(points, pose):
+    return points.reshape(4, len(points) // 4, 3), pose
+
+
+def _as_lists(points, pose):
+    return points.tolist(), pose.tolist()
+
+
+def _far_away(points, pose):
+    moved = pose.copy()
+    moved[:3, 3] += [450_000.0, 5_400_000.0, 300.0]
+    return points, moved
+
+
+@pytest.mark.parametrize("planner", [FloorPlanner, CorrectingPlanner])
+@pytest.mark.parametrize("given", [_as_it_is, _with_what_is_none, _as_an_image, _as_lists, _far_away])
+@pytest.mark.filterwarnings("error")
+def test_scans_as_drivers_give_them(planner, given):
+    scans = survey(room(4.0, 5.0), stations(4.0, 5.0))
+    planner = planner()
+    for row, pose in enumerate(scans.poses):
+        mine = scans.points[scans.scan_id == row]
+        planner.integrate(*given((mine[: len(mine) // 4 * 4] - pose[:3, 3]) @ pose[:3, :3], pose))
+        for nothing in (np.full((4, 3), np.nan), np.zeros((0, 3))):
+            planner.integrate(*given(nothing, pose))
+    plan = planner.plan()
+    (found,) = plan.regions
+    assert found.area == pytest.approx(20.0, abs=0.02)
+    origin = _far_away(None, np.eye(4))[1][:2, 3] if given is _far_away else [0.0, 0.0]
+    corners = plan.to_world(np.array(found.polygon.exterior.coords))
+    np.testing.assert_allclose(corners.min(axis=0), origin, atol=0.02)
 
 
 def test_scans_without_points_are_no_matter(flat, batch):

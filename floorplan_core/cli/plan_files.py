@@ -8,12 +8,12 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from floorplan_core.cli.console import CommandObserver
+from floorplan_core.plan_files import PLAN_FILE
 
 if TYPE_CHECKING:
     from floorplan_core.drawing_style import DrawingStyle
     from floorplan_core.model import FloorPlan
 
-PLAN_FILE = "plan.floorplan"
 DRAWINGS = ("plan.geojson", "plan.svg")
 PICTURES = ("planes.png", "occupancy.png", "plan.png")
 LABEL_IMAGE = "labels.png"

@@ -14,6 +14,7 @@ from floorplan_core.replay import path_lengths
 
 Float = NDArray[np.float64]
 
+FARTHEST = 1e6  # m in the local frame: what lies farther, or is no number, was not measured
 MOST_POINTS = 30_000  # of a keyframe that are kept: its walls show in a tenth of them
 
 
@@ -82,5 +83,5 @@ def by_keyframe(chunk: PointChunk, keyframes: Keyframes) -> Iterator[tuple[int, 
     numbers, starts = np.unique(of_point[order], return_index=True)
     for k, rows in zip(numbers, np.split(order, starts[1:]), strict=True):
         points = np.asarray(chunk.points[rows], np.float64)
-        good = np.isfinite(points).all(axis=1)
+        good = (np.abs(points) < FARTHEST).all(axis=1)
         yield int(k), points[good], chunk.scan_id[rows][good]

@@ -35,9 +35,8 @@ class RosMapExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the two files; the image has the name of the YAML file."""
-        raster = plan.raster or world_raster(plan)
+        states, raster = occupancy_map(plan, self.predicted)
         image = path.with_suffix(".pgm")
-        states = occupancy(plan, raster, self.predicted)
         values = np.full(states.shape, UNKNOWN_VALUE, dtype=np.uint8)
         for state, value in _VALUES.items():
             values[states == state] = value
@@ -52,6 +51,15 @@ class PredictedRosMapExporter(RosMapExporter):
     suffixes = (".predicted.yaml",)
     description = "The same with predicted floor free and guessed walls occupied: for planning ahead."
     predicted = True
+
+
+def occupancy_map(plan: FloorPlan, predicted: bool = False) -> tuple[NDArray[np.uint8], MapRaster]:
+    """What ``map.yaml`` holds (``map.predicted.yaml`` where ``predicted``), as an array.
+
+    :returns: (ny, nx) 0 unobserved, 1 free, 2 occupied, row 0 the lowest y; and where the cells lie.
+    """
+    raster = plan.raster or world_raster(plan)
+    return occupancy(plan, raster, predicted), raster
 
 
 def occupancy(plan: FloorPlan, raster: MapRaster, predicted: bool) -> NDArray[np.uint8]:

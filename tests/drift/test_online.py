@@ -116,6 +116,32 @@ def test_what_a_robot_needs_is_in_world_coordinates(survey):
     np.testing.assert_allclose(moved, planner.path.origins[-1] + far.local_frame.shift, atol=1e-6)
 
 
+@pytest.mark.parametrize("shift", [0.0, 4e5])
+def test_other_poses_take_the_points_with_them(shift):
+    """A loop was closed elsewhere: the second half of the scans had been 0.4 m off."""
+    scans = box_survey(room(4.0, 5.0), stations(4.0, 5.0))
+    world = np.eye(4)
+    world[0, 3] = shift
+    right = world @ scans.poses
+    wrong = right.copy()
+    wrong[2:, 0, 3] += 0.4
+    planner = CorrectingPlanner(correct=False)
+    for row, pose in enumerate(scans.poses):
+        mine = scans.points[scans.scan_id == row]
+        planner.integrate((mine - pose[:3, 3]) @ pose[:3, :3], wrong[row])
+    before = planner.plan()
+    planner.replace_path(right)
+    (found,) = (after := planner.plan()).regions
+    assert found.area == pytest.approx(20.0, abs=0.02)
+    assert abs(sum(region.area for region in before.regions) - 20.0) > 0.5
+    corners = after.to_world(np.array(found.polygon.exterior.coords))
+    np.testing.assert_allclose(corners.min(axis=0), [shift, 0.0], atol=0.02)
+    np.testing.assert_array_equal(planner.map_from_odom, np.eye(4))  # nothing is corrected here
+    planner.integrate(np.zeros((0, 3)), right[0])  # and the run goes on in the new world
+    with pytest.raises(InputError, match="One pose for each of the 4 scans so far is needed"):
+        planner.replace_path(right[:3])
+
+
 def test_the_command_corrects_while_it_watches(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "run"
     arguments = ["watch", str(SAMPLE), "--out", str(out), "--every", "40", "--set", "drift.correct=true"]
