@@ -184,7 +184,7 @@ class SurveyMap:
         seconds, given = stopwatch(), points
         points, scan, origins = self._prepared(points, scan, origins)
         piece = max(PIECE, len(points) // PIECES)
-        pieces = deque(range(0, len(points), piece))
+        pieces = deque(range(0, len(points) if len(origins) else 0, piece))
 
         def carve(rays: MissMap) -> None:
             while pieces:

@@ -125,7 +125,7 @@ class _Streams:
 
     def _open_section(self) -> None:
         self._go_to(self._records.place)
-        head = self._held[self._first : self._last].tobytes()[: SECTION.size]
+        head = self._held[self._first : min(self._last, self._first + SECTION.size)].tobytes()
         kind, length, first, _ = SECTION.unpack(head) if len(head) == SECTION.size else (0, 0, 0, 0)
         if kind != VECTOR_SECTION or first + PAGE > self._pages * PAGE:
             raise InputError(f"{self._path.name} is damaged: no points where its description puts them.")
@@ -302,6 +302,13 @@ def _word(held: Any, at: Any) -> Any:
 
 
 @njit(cache=True, nogil=True)
+def _copy(piece: Any, to: Any) -> None:
+    """As ``to[:] = piece``, which numba does byte by byte, at a sixteenth of this speed."""
+    for k in range(len(to)):
+        to[k] = piece[k]
+
+
+@njit(cache=True, nogil=True)
 def _sort_packets(held: Any, at: Any, wanted: Any, streams: Any, fill: Any, spare: Any) -> Any:
     """Append the pieces of whole packets to their streams; the place reached, and why it went no further."""
     room = streams.shape[1] - spare
@@ -326,7 +333,7 @@ def _sort_packets(held: Any, at: Any, wanted: Any, streams: Any, fill: Any, spar
                     if row >= 0 and pass_ == 0 and fill[row] + size > room:
                         return at, _FULL
                     if row >= 0 and pass_ == 1:
-                        streams[row, fill[row] : fill[row] + size] = held[start : start + size]
+                        _copy(held[start : start + size], streams[row, fill[row] : fill[row] + size])
                         fill[row] += size
                     start += size
         at += length

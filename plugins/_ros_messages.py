@@ -58,7 +58,8 @@ def points_of(message: Any, msgtype: str) -> NDArray[Any]:
         if len(points) and np.isfinite(points.min()) and np.isfinite(points.max()):  # both are NaN if any is
             return points
         x, y, z = np.isfinite(points).T
-        return points[x & y & z]
+        finite: NDArray[Any] = points[x & y & z]
+        return finite
 
 
 def cloud_points(message: Any) -> NDArray[Any]:
