@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.runs import runs_of
-from floorplan_core.model import Door, LayoutPlane
+from floorplan_core.model import Door, LayoutPlane, WallProfile
+from floorplan_core.stages.layout_planes import is_solid
 
 Float = NDArray[np.float64]
 
@@ -17,6 +18,7 @@ _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it 
 _ON = 0.5  # m that a crossing wall must go on beyond a beam or a gap on both sides
 _FLANK, _STANDS = 0.6, 0.25  # m beside an opening in which that much wall must stand
 _STUB, _CORNERED = 0.1, 0.5  # m of wall that is a jamb beside a corner, and how near the corner must be
+_HIDDEN = 0.5  # m beside an opening of which nothing was seen before its jamb
 _SOLID = 0.12  # of the height below 2 m, seen: something stands there
 _PASSED = 1.0  # m of an open stretch through which free space was seen
 _JAMB = 0.1  # m from the edge of a door, where its jamb is wall
@@ -129,7 +131,7 @@ def _open_spans(plane: LayoutPlane) -> list[tuple[float, float]]:
     if profile is None:
         return []
     spans = []
-    for a, b in runs_of(profile.low < _SOLID).tolist():
+    for a, b in runs_of(~is_solid(profile)).tolist():
         if (b - a) * profile.step <= _PASSED:
             continue
         passed = a + np.flatnonzero(profile.through[a:b] > 0.3)
@@ -168,10 +170,22 @@ def _has_jamb(end: float, sign: int, plane: LayoutPlane, meets: Float, past: Flo
     profile = plane.profile
     assert profile is not None
     stop = min((d for d in ((past - end) * sign).tolist() if d >= -_TOUCH), default=np.inf)
+    hidden = min(_unseen(profile, end, sign), max(stop, 0.0))
+    end, stop = end + sign * hidden, stop - hidden
     reach = min(_FLANK, max(stop, 0.0))
     a, b = sorted(round((v - profile.start) / profile.step) for v in (end, end + sign * reach))
     stands = int((profile.low[max(a, 0) : b] >= _SOLID).sum()) * profile.step
     return stands > (_STUB if _is_near(end, meets, _CORNERED) else _STANDS) - profile.step / 2
+
+
+def _unseen(profile: WallProfile, end: float, sign: int) -> float:
+    """Metres from ``end`` to the first wall, where nothing was seen before it: a jamb may be hidden."""
+    first, many = (round(v / profile.step) for v in (end - profile.start, _HIDDEN))
+    solid = is_solid(profile)
+    ahead = (
+        solid[first : first + many + 1] if sign > 0 else solid[max(first - many - 1, 0) : max(first, 0)][::-1]
+    )
+    return int(ahead.argmax()) * profile.step if ahead.any() else 0.0
 
 
 def _depth(span: tuple[float, float], plane: LayoutPlane) -> float:

@@ -115,9 +115,9 @@ def merge_faces(
         else:
             other = out[k].door
             lanes[other.axis, int(other.offset // wide)].remove(k)
-            mine, face = (named[d.planes[0]] for d in (door, other))
-            if not (viewpoints and _look_at_each_other(mine, face)):
-                out[k] = _merged(out[k], candidate, mine.facing != face.facing)
+            mine, *faces = (named[p] for p in (door.planes[0], *other.planes))
+            if not (viewpoints and any(_look_at_each_other(mine, face) for face in faces)):
+                out[k] = _merged(out[k], candidate, mine.facing != faces[0].facing, config.min_width)
         lanes.setdefault((door.axis, int(out[k].door.offset // wide)), []).append(k)
     return [c for c in out if _is_beside(c.door, named)]
 
@@ -143,8 +143,12 @@ def _same_opening(a: Door, b: Door, config: DoorsConfig) -> bool:
     return a.axis == b.axis and near and overlap > 0.5 * min(a.width, b.width)
 
 
-def _merged(sure: Candidate, other: Candidate, both_faces: bool) -> Candidate:
+def _merged(sure: Candidate, other: Candidate, both_faces: bool, narrowest: float) -> Candidate:
     a, b = sure.door, other.door
+    if a.width < narrowest <= b.width:  # part of an opening, of which more was seen in the other
+        a = replace(a, start=b.start, end=b.end)
+    elif b.width < narrowest <= a.width:
+        b = replace(b, start=a.start, end=a.end)
     door = replace(a, planes=(*a.planes, *b.planes))
     if both_faces:
         start, end = _shared_span(a, b)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,31 @@ def test_beside_a_corner_a_stub_is_enough(wall: tuple[float, float]) -> None:
 
 def test_a_stub_in_the_open_is_none() -> None:
     assert is_cut(spanned([(2.0, 7.5), (9.85, CORNER)]))
+
+
+def _with(plane: LayoutPlane, low: float, through: float, start: float, end: float) -> LayoutPlane:
+    """The same; from ``start`` to ``end`` that share seen of the wall and free through it."""
+    profile = plane.profile
+    assert profile is not None
+    at = STEP * (np.arange(len(profile.low)) + 0.5)
+    inside = (at > start) & (at < end)
+    changed = {
+        "low": np.where(inside, low, profile.low),
+        "through": np.where(inside, through, profile.through),
+    }
+    return replace(plane, profile=replace(profile, **changed))
+
+
+@pytest.mark.parametrize(("hidden", "cut"), [(0.4, False), (0.8, True)])
+def test_a_jamb_may_begin_behind_a_little_that_nobody_saw(hidden: float, cut: bool) -> None:
+    wall = spanned([(2.0, 5.0), (7.0 + hidden, 10.0)])
+    assert is_cut(_with(wall, 0.0, 0.0, 7.0, 7.0 + hidden)) is cut
+
+
+@pytest.mark.parametrize(("through", "cut"), [(1.0, False), (0.0, True)])
+def test_points_that_float_in_an_opening_do_not_end_it(through: float, cut: bool) -> None:
+    wall = spanned([(2.0, 4.5), (7.5, 10.0)])
+    assert is_cut(_with(wall, 0.16, through, 5.0, 5.2)) is cut
 
 
 def test_one_jamb_and_a_wall_that_goes_on_carry_a_deep_lintel_only() -> None:

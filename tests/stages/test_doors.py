@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from floorplan_core.config import DoorsConfig
-from floorplan_core.model import Door, WallProfile
+from floorplan_core.model import Door, Facing, LayoutPlane, WallProfile
 from floorplan_core.stages.door_apertures import apertures, door_response, percentile, shows_lintels
+from floorplan_core.stages.door_evidence import DoorMeasures
+from floorplan_core.stages.doors import Candidate, merge_faces
 from tests.box_world import EYE, LINTEL, Run, run, stations, survey, two_rooms, wall
 
 WIDTH_TOLERANCE = 0.03  # m
@@ -246,6 +248,35 @@ def test_a_wide_corner_opening_needs_its_lintel_all_along():
     assert not any(b - a > 1.3 for a, b, _ in found(np.full(80, 0.5), np.where(half, passed, 0.0)))
     pillar = np.where((np.arange(80) >= 55) & (np.arange(80) < 66), 0.9, low)
     assert not any(b - a > 1.3 for a, b, _ in found(np.full(80, 0.5), stands=pillar))
+
+
+def _seen_at(plane: str, facing: Facing, at: float, start: float, end: float, **sure: float) -> Candidate:
+    """An aperture in a plane along x, of which ``sure`` was seen and a lintel between jambs."""
+    seen = dict.fromkeys(("open", "foot", "beyond", "path"), 0.0)
+    seen |= dict.fromkeys(("passage", "lintel", "flanks", "flank", "response"), 1.0)
+    door = Door("", (plane,), facing.axis, at, start, end)
+    return Candidate(door, DoorMeasures(**(seen | sure)))
+
+
+def _planes(*faces: tuple[str, Facing, float]) -> list[LayoutPlane]:
+    return [LayoutPlane(n, f, at, observed=np.array([(0.0, 9.0)])) for n, f, at in faces]
+
+
+def test_the_front_of_a_cabinet_says_nothing_about_the_wall_behind_it():
+    planes = _planes(("a", Facing.SOUTH, 5.0), ("b", Facing.NORTH, 5.15), ("c", Facing.SOUTH, 5.5))
+    wall = [_seen_at(p.id, p.facing, p.offset, 3.0, 3.9) for p in planes[:2]]
+    cabinet = _seen_at("c", Facing.SOUTH, 5.5, 3.0, 3.9, passage=0.0, open=0.8, lintel=0.0)
+    (door,) = merge_faces([*wall, cabinet], planes, DoorsConfig())
+    assert door.door.planes == ("a", "b")
+    assert door.measures.open == 0.0
+
+
+def test_of_two_faces_the_one_that_shows_part_of_an_opening_only_does_not_narrow_it():
+    planes = _planes(("a", Facing.SOUTH, 5.0), ("b", Facing.NORTH, 5.15))
+    part = _seen_at("a", Facing.SOUTH, 5.0, 4.0, 4.5, open=1.0, foot=1.0)
+    whole = _seen_at("b", Facing.NORTH, 5.15, 2.0, 4.6)
+    (door,) = merge_faces([part, whole], planes, DoorsConfig())
+    assert (door.door.start, door.door.end) == (2.0, 4.6)
 
 
 def test_a_few_lintels_show_that_the_sensor_sees_in_three_dimensions():
