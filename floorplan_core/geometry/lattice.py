@@ -36,6 +36,16 @@ def _axis_spacing(values: NDArray[np.float64]) -> float:
     return spacing if float(np.abs(multiples - np.round(multiples)).max()) < 0.1 else 0.0
 
 
+def share_enclosed(points: NDArray[Any], spacing: float) -> float:
+    """Share of the voxels around (N, 3) centres that have a neighbour on every side; a surface has few."""
+    cells = np.round((points - points.min(axis=0)) / spacing).astype(np.int64) + 1
+    size = cells.max(axis=0) + 2
+    keys = np.unique(np.ravel_multi_index(tuple(cells.T), tuple(size)))
+    steps = (1, int(size[2]), int(size[1] * size[2]))
+    beside = [np.isin(keys + sign * step, keys) for step in steps for sign in (-1, 1)]
+    return float(np.all(beside, axis=0).mean())
+
+
 def subdivide(points: NDArray[Any], spacing: float, finest: float) -> NDArray[np.float64]:
     """(k N, 3) each voxel's centre replaced by the centres of its parts, none larger than ``finest``."""
     parts = max(1, int(np.ceil(spacing / finest - 1e-6)))

@@ -1,7 +1,8 @@
 """Which axis of a file is up, and in which unit it counts: guessed from a sample, stated, never silent.
 
 Up is the axis along which points lie in two flat outer layers (floor and ceiling), along which the building
-is low, and along which the sensor's path stays level; the points of a single surface do not tell. The unit is
+is low, along which its layers are a storey apart in some unit (a tower is not low), and along which the
+sensor's path stays level; the points of a single surface do not tell. The unit is
 the one that makes storey height, extent and sensor height those of a building. Every term is bounded, so that
 no single oddity decides.
 """
@@ -22,6 +23,7 @@ Float = NDArray[np.float64]
 
 LAYER_WEIGHT = 6.0  # of the strength of the layers (0 to 1)
 LOW_WEIGHT = 1.0  # of ln(extent of the others / extent along the axis)
+SIZE_WEIGHT, SIZE_LEAST = 1.0, -6.0  # of the likelihood of the sizes in the best unit, and its least
 LEVEL_WEIGHT = 2.0  # of ln(path's spread along the others / along the axis)
 UPRIGHT_WEIGHT = 3.0  # of the sensor's own vertical, where only one of its axes stays constant
 LEVEL_FLOOR = 0.02  # a path is never more level than this share of its length
@@ -80,14 +82,19 @@ def guess_axes(
     ``usual`` is the unit that the format fixes: believed unless no building is of that size.
     """
     layers = [find_layers(points[:, axis]) for axis in range(3)]
-    up_guess = guess_up(points, layers, trajectory) if up == "auto" else up
-    unit_guess = guess_unit(layers, trajectory, up_guess, usual) if unit == "auto" else unit
+    units = tuple(PRIOR) if unit == "auto" else (unit,)
+    sizes = [guess_unit(layers, None, axis, usual, units)[1] for axis in "xyz"]
+    up_guess = guess_up(points, layers, trajectory, sizes) if up == "auto" else up
+    unit_guess = guess_unit(layers, trajectory, up_guess, usual, units)[0]
     sentences = (_up_sentence(up, up_guess), _unit_sentence(unit, unit_guess, layers, up_guess))
     return AxisGuess(up_guess, unit_guess, sentences)
 
 
-def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None) -> str:
-    """ "x", "y", "z", "-x", "-y" or "-z"; ties go to z, then y."""
+def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None, sizes: list[float]) -> str:
+    """ "x", "y", "z", "-x", "-y" or "-z"; ties go to z, then y.
+
+    :param sizes: how likely the sizes of a building are with each axis up.
+    """
     extents = np.array([layer.high - layer.low for layer in layers])
     if extents.max() <= 0:
         return "z"
@@ -96,6 +103,7 @@ def guess_up(points: Float, layers: list[Layers], trajectory: Trajectory | None)
     if not _is_one_surface(points, layers):  # a wall is as flat and as low as a floor
         scores += LAYER_WEIGHT * np.array([layer.strength for layer in layers])
         scores += LOW_WEIGHT * _log_ratio_to_others(extents)
+        scores += SIZE_WEIGHT * np.maximum(sizes, max(sizes) + SIZE_LEAST)
     scores += _level_scores(trajectory, float(extents.max()))
     upright = _upright(trajectory)
     scores += UPRIGHT_WEIGHT * np.abs(upright)
@@ -124,8 +132,10 @@ def _is_one_surface(points: Float, layers: list[Layers]) -> bool:
     )  # no floor and ceiling
 
 
-def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str, usual: str = "auto") -> str:
-    """ "m", "mm", "cm" or "ft" (ties go in this order): what makes the sizes those of a building."""
+def guess_unit(
+    layers: list[Layers], trajectory: Trajectory | None, up: str, usual: str, units: tuple[str, ...]
+) -> tuple[str, float]:
+    """Which of ``units`` makes the sizes those of a building, the first of equals; how likely they are."""
     axis = "xyz".index(up[-1])
     plan = max(layers[a].high - layers[a].low for a in range(3) if a != axis)
     storey, tall = storey_height(layers[axis]), layers[axis].high - layers[axis].low
@@ -138,7 +148,8 @@ def guess_unit(layers: list[Layers], trajectory: Trajectory | None, up: str, usu
         rest = EXTENT.score(plan * size) + SENSOR.score(sensor * size) + SPEED.score(speed * size)
         return PRIOR[unit] + vertical + rest + (FORMAT_WEIGHT if unit == usual else 0.0)
 
-    return max(PRIOR, key=score)
+    best = max(units, key=score)
+    return best, score(best)
 
 
 def storey_height(layers: Layers) -> float:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from floorplan_core.errors import InputError
+from floorplan_core.geometry.lattice import lattice_spacing, share_enclosed
 from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
@@ -29,6 +30,8 @@ POINT_NAMES = (
     "points", "xyz", "pts", "positions", "position", "coords", "coordinates", "vertices", "cloud", "centers",
     "pos", "arr_0",
 )  # fmt: skip
+
+_VOLUME = 0.25  # share of enclosed voxels from which they fill space: 0.69 of free space, 0.01 of surfaces
 
 
 class NpzReader:
@@ -63,8 +66,22 @@ def npz_source(path: Path) -> PointSource:
             )
     columns += [arrays[name] for name in (scan_id, stamp) if name is not None]
     chunks = partial(_chunks, columns, scan_id is not None, stamp is not None)
+    _require_surfaces(path, points)
     sample, ids = _inspect(chunks(), points.shape[0])
     return PointSource(path, "NPZ", chunks, lambda: sample, points.shape[0], scan_id is not None, ids)
+
+
+def _require_surfaces(path: Path, points: StoredArray) -> None:
+    """:class:`InputError` where the file lists the voxels of a volume: free space, which has no walls."""
+    first = next(points.rows(CHUNK_POINTS))[:, :3].astype(np.float64)
+    first = first[np.isfinite(first).all(axis=1)]
+    spacing = lattice_spacing(first)
+    if spacing and share_enclosed(first, spacing) > _VOLUME:
+        raise InputError(
+            f"{path.name} lists voxels of {spacing:.2g} m that fill space, like the free space of a map, and "
+            "a plan needs surfaces: open the map itself (an OctoMap .bt or .ot has both) or its occupied "
+            "voxels."
+        )
 
 
 def _points_array(path: Path, arrays: dict[str, StoredArray]) -> StoredArray:

@@ -5300,6 +5300,10 @@
    <translation>{0} Zeilen von {1} enthalten keinen Punkt; sie wurden weggelassen.</translation>
   </message>
   <message>
+   <source>{0} lists voxels of {1} m that fill space, like the free space of a map, and a plan needs surfaces: open the map itself (an OctoMap .bt or .ot has both) or its occupied voxels.</source>
+   <translation>{0} zählt Voxel von {1} m auf, die den Raum füllen, wie der freie Raum einer Karte, und ein Plan braucht Oberflächen: Öffnen Sie die Karte selbst (eine OctoMap .bt oder .ot hat beides) oder ihre belegten Voxel.</translation>
+  </message>
+  <message>
    <source>{0} m is out of bounds</source>
    <translation>{0} m liegt außerhalb der Grenzen</translation>
   </message>

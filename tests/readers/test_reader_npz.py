@@ -115,3 +115,18 @@ def test_flipped_bytes_are_noticed(tmp_path, cloud):
     path.write_bytes(bytes(data))
     with pytest.raises(InputError, match="damaged"):
         open_survey(path)
+
+
+def _voxels(*, solid: bool) -> np.ndarray:
+    """Centres of the voxels of 0.1 m of a room, or of its surfaces."""
+    box = np.indices((30, 40, 27)).reshape(3, -1).T
+    surface = ((box == 0) | (box == np.array([29, 39, 26]))).any(axis=1)
+    return (box if solid else box[surface]) * 0.1 + 5.05
+
+
+def test_free_voxels_are_told_from_surfaces(tmp_path):
+    np.savez(tmp_path / "free.npz", centers=_voxels(solid=True).astype(np.float32), res=0.1)
+    with pytest.raises(InputError, match=r"free.npz lists voxels of 0.1 m that fill space, .* open the map"):
+        open_survey(tmp_path / "free.npz", config=AS_IT_IS)
+    np.savez(tmp_path / "walls.npz", centers=_voxels(solid=False).astype(np.float32), res=0.1)
+    assert open_survey(tmp_path / "walls.npz", config=AS_IT_IS).point_count == len(_voxels(solid=False))
