@@ -85,6 +85,9 @@ def writers() -> dict[str, Write]:
         "map-yaml": _map,
         "map-png": lambda d: _picture(d / "a.png"),
         "floorplan": _plan,
+        "project": _project,
+        "geojson": _geojson,
+        "ifc": _ifc,
     }
     return made
 
@@ -128,6 +131,30 @@ def _plan(folder: Path) -> Path:
     return path
 
 
+def _project(folder: Path) -> Path:
+    from floorplan_core.project_file import Project, save
+
+    (folder / "a.ply").write_bytes(b"ply")
+    path = folder / "a.floorcast"
+    save(path, Project(survey=(folder / "a.ply", None, ""), names=(("r1", "Office", "room"),)), b"PNG")
+    return path
+
+
+def _geojson(folder: Path) -> Path:
+    from floorplan_core.exporters.geojson import GeoJsonExporter
+    from tests.factories import small_flat
+
+    path = folder / "plan.geojson"
+    GeoJsonExporter().write(small_flat(), path)
+    return path
+
+
+def _ifc(folder: Path) -> Path:
+    from tests.evaluation.ifc_cases import write_house
+
+    return write_house(folder / "a.ifc")
+
+
 def read(path: Path, kind: str) -> None:
     """Read everything in ``path``, as the program does."""
     if kind == "tum":
@@ -143,6 +170,19 @@ def read(path: Path, kind: str) -> None:
         from floorplan_core.model import FloorPlan
 
         intermediates.load(path, FloorPlan)
+    elif kind == "project":
+        from floorplan_core import project_file
+
+        project_file.load(path)
+        project_file.read_thumbnail(path)
+    elif kind == "geojson":
+        from floorplan_core.evaluation.plan_file import read_plan
+
+        read_plan(path)
+    elif kind == "ifc":
+        from floorplan_core.evaluation import load_truth
+
+        load_truth(path)
     else:
         _read_survey(path)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import shutil
 import signal
 import tempfile
@@ -23,6 +24,7 @@ from floorplan_core.errors import OutputError
 from floorplan_core.process_ids import is_running
 
 STAGING_PREFIX = ".floorcast-"
+_STAGED = re.compile(re.escape(STAGING_PREFIX) + r"\d+-[^/\\]*[/\\]")
 STALE = 3600.0  # s: a younger folder may be that of a program on another machine that shares the disk
 
 _REASONS = {
@@ -41,7 +43,8 @@ _REASONS = {
 
 
 def output_error(error: OSError, target: Path | str) -> OutputError:
-    """The one sentence for a failed write to ``target``."""
+    """The one sentence for a failed write to ``target``, where a staged file is to be in the end."""
+    target = _STAGED.sub("", str(target))
     reason = _REASONS.get(error.errno or 0) or (error.strerror or str(error)).rstrip(".").lower()
     return OutputError(f"Cannot write {target}: {reason}.")
 
@@ -152,9 +155,10 @@ def _move_into_place(staging: Path, folder: Path) -> None:
     done: list[Path] = []
     try:
         for name in names:
-            _replace(staging / name, folder / name, keep / name)
+            with writing(folder / name):
+                _replace(staging / name, folder / name, keep / name)
             done.append(name)
-    except OSError:
+    except OutputError:
         for name in reversed(done):
             _put_back(folder / name, keep / name)
         raise

@@ -13,6 +13,7 @@ from floorplan_core import files
 from floorplan_core.errors import OutputError
 from floorplan_core.files import (
     STAGING_PREFIX,
+    output_error,
     output_file,
     output_folder,
     uninterrupted,
@@ -126,6 +127,20 @@ def test_the_temporary_file_has_the_final_name(tmp_path: Path) -> None:
         assert temporary.name == "planes.png"
         temporary.write_text("x")
     assert tree(tmp_path) == {"planes.png": "x"}
+
+
+def test_a_sentence_names_the_file_and_not_where_it_is_made(tmp_path: Path) -> None:
+    o = tmp_path / "o"
+    with (
+        pytest.raises(OutputError, match=r"Cannot write .*/o/plan\.svg: there is"),
+        output_folder(o) as staging,
+    ):
+        (staging / "a.json").write_text("new")
+        (staging / "plan.svg").write_text("new")
+        (o / "plan.svg").mkdir()
+    assert [p.name for p in o.iterdir()] == ["plan.svg"]
+    staged = tmp_path / f"{STAGING_PREFIX}12-x_y" / "plan.svg"
+    assert f"Cannot write {tmp_path}/plan.svg: " in str(output_error(OSError(errno.EFBIG, ""), staged))
 
 
 def test_ctrl_c_waits_until_the_files_are_in_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,8 +18,16 @@ if TYPE_CHECKING:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with the documented status."""
+    _open_what_is_closed()
     status = run(sys.argv[1:] if arguments is None else list(arguments))
     sys.exit(_flushed(status))
+
+
+def _open_what_is_closed() -> None:
+    """With a closed stream (``>&-``) there is none to write to, and the next file would take its number."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
 
 
 def run(arguments: list[str]) -> int:
@@ -82,7 +91,8 @@ def _say(sentence: str, error: BaseException, status: int, arguments: list[str])
     if "--json" in arguments:
         import json
 
-        sys.stdout.write(json.dumps({"ok": False, "error": sentence, "status": status}) + "\n")
+        with suppress(OSError):  # which may be just what went wrong
+            sys.stdout.write(json.dumps({"ok": False, "error": sentence, "status": status}) + "\n")
     sys.stderr.write(f"floorcast: {sentence}\n")
 
 
@@ -105,9 +115,10 @@ def _flushed(status: int) -> int:
         return _reader_has_gone()
     except OSError as error:
         _silence_stdout()
-        from floorplan_core.files import output_error
+        if status == 0:
+            from floorplan_core.files import output_error
 
-        sys.stderr.write(f"floorcast: {output_error(error, 'to the standard output')}\n")
+            sys.stderr.write(f"floorcast: {output_error(error, 'to the standard output')}\n")
         return status or 3
     return status
 

@@ -220,6 +220,23 @@ def test_a_closed_pipe_is_no_error() -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+@pytest.mark.skipif(os.name != "posix", reason="closed streams")
+@pytest.mark.parametrize(("closed", "arguments", "status"), [(1, ["settings"], 0), (2, ["info", "/nope"], 3)])
+def test_a_closed_stream_is_no_error(closed: int, arguments: list[str], status: int) -> None:
+    command = [sys.executable, "-m", "floorplan_core.cli.main", *arguments]
+    done = subprocess.run(command, preexec_fn=lambda: os.close(closed), capture_output=True, text=True)
+    assert done.returncode == status
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
+def test_an_error_that_cannot_be_written_either_is_one_sentence(floorcast) -> None:
+    with open("/dev/full", "w") as full:
+        done = floorcast("info", "/nope", "--json", stdout=full)
+    assert done.returncode == 3
+    assert done.stderr == "floorcast: The input /nope does not exist.\n"
+
+
 def test_a_full_disk_behind_stdout_is_status_3(floorcast) -> None:
     with open("/dev/full", "w") as full:
         done = floorcast("settings", stdout=full)
