@@ -9,6 +9,7 @@ lifted to walls of full height.
 from __future__ import annotations
 
 import math
+import os
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
@@ -32,12 +33,13 @@ Float = NDArray[np.float64]
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
-_RAYS = 0.125  # of the same for the ray counts of each of two threads: an eighth of what surfels take
+_RAYS = 0.25  # of the same for the ray counts of all threads: a quarter of what surfels take
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
 PIECE = 50_000  # points at least whose rays a thread follows before it asks for more
+HELPERS = max(1, min(3, (os.cpu_count() or 2) - 1))  # threads that follow rays beside the one that inserts
 # of a chunk at most: asking needs the interpreter's lock, which the decoder of LAZ holds for 15 to 30 ms
-PIECES = 5
+PIECES = 1 + 4 * HELPERS
 SAMPLE = 100_000  # first points of a run, which show what kind of survey it is; waiting takes 3 MB
 
 
@@ -48,7 +50,8 @@ class SurveyMap:
         self._room = _room(config.voxels)
         self.surfels = SurfelMap(config.voxels.size / 2, self._room)
         self.rays = self._no_rays(config.voxels.size)
-        self._more_rays = self._no_rays(config.voxels.size)  # those that the second thread followed
+        # those that other threads followed: one for each but the first helper
+        self._more_rays = [self._no_rays(config.voxels.size) for _ in range(HELPERS)]
         self.seconds = 0.0  # spent on integrating so far
         self.planar = False  # True: a planar scan, lifted
         self.own = OwnFrame()  # of the map: what takes the local frame into it
@@ -56,9 +59,8 @@ class SurveyMap:
         self._own_axes = config.voxels.own_axes
         self._path: list[Float] = []
         self._rows: tuple[Trajectory, int, int] | None = None  # first and last row that saw a point so far
-        self._pool = ThreadPoolExecutor(1)
-        self._carving: Future[None] = Future()  # the second thread's share of the last chunk
-        self._carving.set_result(None)
+        self._helpers = [ThreadPoolExecutor(1) for _ in range(HELPERS)]
+        self._carving: list[Future[None]] = []  # the helpers' shares of the last chunk
         self._lattice: float | None = (
             None  # m between the points of a voxel map; 0: none; None: not known yet
         )
@@ -115,15 +117,17 @@ class SurveyMap:
                 self.own = own_frame(first, level=not self.planar)
         for points, scan, origins in waiting:
             self._add(points, scan, origins)
-        self._carving.result()
-        self.rays.take(self._more_rays)
+        self._wait()
+        for rays in self._more_rays:
+            if rays.blocks:
+                self.rays.take(rays)
 
     def finish(self) -> None:
         """All points came: let go of what only further ones need."""
         self.settle()
         self.surfels.pack()
         self.rays.pack()
-        self._more_rays = self._no_rays(self.rays.size)
+        self._more_rays = [self._no_rays(self.rays.size) for _ in self._more_rays]
 
     def sample(self) -> Surfels:
         """Enough surfels to see the directions of the building: whole blocks, spread over the survey."""
@@ -153,7 +157,7 @@ class SurveyMap:
     def _mark_free(self, centres: Points, side: float) -> None:
         """Free voxels that the file itself knows (an OctoMap): they need no viewpoints."""
         seconds = stopwatch()
-        self._carving.result()
+        self._wait()
         self.rays.mark(subdivide(centres, side, self.surfels.size), FILE_RAYS)
         self.seconds += seconds()
 
@@ -188,21 +192,30 @@ class SurveyMap:
 
         def carve(rays: MissMap) -> None:
             while pieces:
-                with suppress(IndexError):  # the other thread took the last one
+                with suppress(IndexError):  # another thread took the last one
                     part = slice(start := pieces.popleft(), start + piece)
                     rays.carve(points[part], scan[part], origins, self._limits)
 
-        before, self._carving = self._carving, self._pool.submit(carve, self.rays)
+        own, *others = self._more_rays
+        before = self._carving
+        shares = zip(self._helpers, (self.rays, *others), strict=True)
+        self._carving = [helper.submit(carve, rays) for helper, rays in shares]
         self.surfels.insert(points, scan, origins, self._limits)
-        carve(self._more_rays)
-        before.result()  # of the chunk before: the last rays of this one are followed beside the next
+        carve(own)
+        for share in before:
+            share.result()  # of the chunk before: the last rays of this one are followed beside the next
         if points is given:
-            self._carving.result()  # an array of the caller, who may use it for something else now
+            self._wait()  # an array of the caller, who may use it for something else now
         self.seconds += seconds()
 
+    def _wait(self) -> None:
+        """Until the helpers have followed all rays so far."""
+        for share in self._carving:
+            share.result()
+
     def _no_rays(self, size: float) -> MissMap:
-        """Ray counts to begin with; there are two of them, for two threads."""
-        return MissMap(size, None if self._room is None else _RAYS * self._room)
+        """Ray counts to begin with; each thread has its own, and they are added up."""
+        return MissMap(size, None if self._room is None else _RAYS * self._room / (HELPERS + 1))
 
     def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
         """The scan in the frame of the map, with a voxel map subdivided and a planar scan lifted."""

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 
+from floorplan_core import survey_map
 from floorplan_core.config import Config
 from floorplan_core.drift.online import CorrectingPlanner
 from floorplan_core.errors import InputError
@@ -236,6 +237,24 @@ def test_a_buffer_is_the_callers_again_after_each_chunk(monkeypatch):
     for planner in planners:
         planner.map.settle()
     counts = [np.sort(p.map.rays._pool.sum(axis=1, dtype=np.int64)) for p in planners]
+    np.testing.assert_array_equal(*counts)
+
+
+def test_any_number_of_threads_counts_the_same_rays(monkeypatch):
+    """Each has a map of its own, and takes the pieces of a chunk that the others left."""
+    data = survey(room(4, 5), stations(4, 5), rays=(320, 200))
+    path = Trajectory(np.arange(len(data.poses), dtype=float), data.poses)
+    monkeypatch.setattr(survey_map, "PIECE", 1000)
+    monkeypatch.setattr(survey_map, "PIECES", 50)
+    counts = []
+    for helpers in (1, 3):
+        monkeypatch.setattr(survey_map, "HELPERS", helpers)
+        planner = FloorPlanner()
+        for part in np.array_split(np.arange(len(data.points)), 3):
+            planner.integrate_chunk(PointChunk(data.points[part], data.scan_id[part]), path)
+        planner.map.settle()
+        counts.append(np.sort(planner.map.rays._pool.sum(axis=1, dtype=np.int64)))
+    assert counts[0].any()
     np.testing.assert_array_equal(*counts)
 
 

@@ -8,8 +8,11 @@ out and counted.
 from __future__ import annotations
 
 import io
+import os
 import warnings
+from collections import deque
 from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +25,7 @@ from floorplan_core.readers.source import SAMPLE_BLOCKS, SAMPLE_POINTS, RawChunk
 Float = NDArray[np.float64]
 
 BLOCK_BYTES = 4 << 20  # some 130,000 points
+PARSERS = min(4, max(2, os.cpu_count() or 1))  # blocks at a time: the kernel does without Python's lock
 KERNEL_FROM = 1 << 18  # bytes: for less text no kernel is loaded
 MAX_LINE_BYTES = 1 << 16  # a longer line is no row of numbers
 ORDER_PASS_BYTES = 32 << 20  # up to here a whole pass is cheap enough to learn the order of the scans
@@ -42,9 +46,16 @@ class TextLayout:
 
 
 def text_chunks(path: Path, layout: TextLayout) -> Iterator[RawChunk]:
-    """All rows, a block of text at a time."""
-    for block in _line_blocks(path, layout.offset, layout.end):
-        yield parse_block(block, layout)
+    """All rows, a block of text at a time and in their order; ``PARSERS`` threads parse those ahead."""
+    waiting: deque[tuple[bytes, Future[Float | None]]] = deque()
+    with ThreadPoolExecutor(PARSERS) as pool:
+        for block in _line_blocks(path, layout.offset, layout.end):
+            waiting.append((block, pool.submit(_parse_by_kernel, block, layout)))
+            if len(waiting) > PARSERS:
+                block, rows = waiting.popleft()
+                yield _block_chunk(block, layout, rows.result())
+        for block, rows in waiting:
+            yield _block_chunk(block, layout, rows.result())
 
 
 def text_sample(path: Path, layout: TextLayout, blocks: int = SAMPLE_BLOCKS) -> RawChunk:
@@ -107,7 +118,11 @@ def skip_lines(path: Path, offset: int, count: int) -> int:
 
 def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
     """Points of whole lines."""
-    rows = _parse_by_kernel(block, layout) if len(block) > KERNEL_FROM else None
+    return _block_chunk(block, layout, _parse_by_kernel(block, layout))
+
+
+def _block_chunk(block: bytes, layout: TextLayout, rows: Float | None) -> RawChunk:
+    """What the kernel made of the block; where it could not, what other parsers do."""
     if rows is None:
         text = normalise(block, layout)
         rows = _parse_at_once(text, layout)
@@ -116,6 +131,8 @@ def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
 
 
 def _parse_by_kernel(block: bytes, layout: TextLayout) -> Float | None:
+    if len(block) <= KERNEL_FROM:
+        return None
     from floorplan_core.readers.plain_numbers import parse_numbers  # compiled: only for what is worth it
 
     decimal = "," if layout.decimal_comma else "."
