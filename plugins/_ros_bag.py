@@ -35,8 +35,19 @@ def opened(path: Path, types: Any = None) -> Iterator[Any]:
     """
     import_library("rosbags.highlevel", PACKAGE, "ROS bags")
     bound_rosbags()
-    with damaged(path.name, "ROS recording"), _reader(path, types) as reader:
+    with damaged(path.name, "ROS recording", _advice(path)), _reader(path, types) as reader:
         yield reader
+
+
+def _advice(path: Path) -> str:
+    """What mends a recording that was cut off, where its recorder crashed or still writes."""
+    if path.is_dir():
+        return ""
+    with path.open("rb") as handle:
+        head = handle.read(len(SQLITE))
+    known = ((ROS1, "rosbag reindex"), (MCAP, "mcap recover"), (SQLITE, "sqlite3's .recover"))
+    tools = [tool for start, tool in known if head.startswith(start)]
+    return f"; {tools[0]} mends one that was cut off" if tools else ""
 
 
 def _reader(path: Path, types: Any) -> Any:

@@ -14,6 +14,7 @@ Float = NDArray[np.float64]
 WORLD_FRAMES = ("map", "odom", "world", "camera_init", "local_origin", "earth", "global")
 TOLERANCE = 0.1  # seconds from the nearest known pose: a walker moves a voxel
 MAX_GAP = 2.0  # seconds between poses across which it is interpolated
+STILL = 1e-6  # of any number of a pose: it did not move
 MAX_DEPTH = 32  # frames between a sensor and the root
 
 
@@ -25,6 +26,11 @@ class Edge:
     seconds: list[float] = field(default_factory=list)
     poses: list[Pose] = field(default_factory=list)  # T_parent_child
     static: bool = False
+
+    @property
+    def moves(self) -> bool:
+        """True where it was not always in the same place."""
+        return not self.static and bool(np.ptp(matrices(self.poses), axis=0).max() > STILL)
 
     def at(self, times: Float) -> tuple[Float, NDArray[np.bool_]]:
         """(N, 4, 4) poses at (N,) ``times``, and where they are known."""
@@ -62,8 +68,12 @@ class FrameTree:
         return chain
 
     def moves(self, frame: str) -> bool:
-        """True where some frame between ``frame`` and the root moves."""
-        return any(len(self.edges[f].poses) > 1 and not self.edges[f].static for f in self.chain(frame)[:-1])
+        """True where some frame between ``frame`` and the root moves, or stands still in a world.
+
+        What is only sent again and again, as ROS 1 does with how a sensor is mounted, moves nothing.
+        """
+        chain = self.chain(frame)
+        return any(self.edges[f].moves for f in chain[:-1]) or (len(chain) > 1 and chain[-1] in WORLD_FRAMES)
 
     def poses(self, frame: str, times: Float) -> tuple[Float, NDArray[np.bool_]]:
         """(N, 4, 4) T_root_frame at (N,) ``times``, and where all of the chain is known."""

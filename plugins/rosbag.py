@@ -121,6 +121,7 @@ def survey(path: Path, given: Trajectory | None, observer: Observer, wanted: str
                 message = reader.deserialize(raw, connection.msgtype)
                 _take(message, connection, tree, tracks)
         listed, types, topics = _listed(reader), reader.typestore, _topics(reader)
+        others = _others(reader, topic, msgtype)
         images = msgtype in (depth.IMAGE, depth.COMPRESSED)
         camera = depth.camera_of(path.name, reader, topic) if images else None
     if not recorded:
@@ -128,7 +129,7 @@ def survey(path: Path, given: Trajectory | None, observer: Observer, wanted: str
     frame = max(sorted(set(frames)), key=frames.count)
     placed = _place(path.name, frame, np.array(seconds), tree, tracks, given, listed)
     run = _run(path.name, topic, msgtype, np.array(recorded), np.array(seconds), placed, observer)
-    run = replace(run, types=types, topics=topics, camera=camera)
+    run = replace(run, types=types, topics=topics, camera=camera, notes=run.notes + others)
     return without_still_images(run) if images else run
 
 
@@ -183,6 +184,14 @@ def _listed(reader: Any) -> str:
     topics = sorted({f"{c.topic} ({c.msgtype.split('/')[-1]})" for c in reader.connections})
     more = f" and {len(topics) - LISTED} more" if len(topics) > LISTED else ""
     return (", ".join(topics[:LISTED]) + more) or "none"
+
+
+def _others(reader: Any, topic: str, msgtype: str) -> tuple[str, ...]:
+    """A sentence where more topics could have been read: another lidar, or the same one in another form."""
+    counts = _message_counts(reader)
+    others = sorted({c.topic for c in reader.connections if c.msgtype == msgtype != depth.IMAGE} - {topic})
+    named = ", ".join(t for t in others if counts[t] > 0)
+    return (f"Not read: {named}; one topic is, choose it with --set input.topic=NAME.",) if named else ()
 
 
 def _topics(reader: Any) -> tuple[str, ...]:

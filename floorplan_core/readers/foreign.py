@@ -29,8 +29,10 @@ def import_library(module: str, package: str, purpose: str) -> Any:
 
 
 @contextmanager
-def damaged(name: str, what: str) -> Iterator[None]:
+def damaged(name: str, what: str, advice: str = "") -> Iterator[None]:
     """Whatever a library raises over a damaged file becomes an :class:`InputError`; cancelling passes.
+
+    ``advice`` ends the sentence (from its semicolon on).
 
     Libraries written in Rust panic with exceptions that are no :class:`Exception`: these are meant, too.
     """
@@ -42,7 +44,7 @@ def damaged(name: str, what: str) -> Iterator[None]:
         raise InputError(f"Cannot read {name}: {error.strerror or _reason(error)}.") from error
     except BaseException as error:
         raise InputError(
-            f"{name} is no {what} that can be read, or is damaged ({_reason(error)})."
+            f"{name} is no {what} that can be read, or is damaged ({_reason(error)}){advice}."
         ) from error
 
 

@@ -249,6 +249,42 @@ def test_another_topic_can_be_chosen(tmp_path):
     assert "on the topic '/tf'" in refusal(path, topic="/tf", unit="m", up="z")
 
 
+def with_a_mount_sent_again_and_again(m):
+    """As ROS 1's static_transform_publisher does; where the robot is, only the odometry topic knows."""
+    for k, (T, part) in enumerate(zip(poses(), parts(), strict=True)):
+        at = START + 0.5 * k
+        yield "/tf", at, m.transform(mount(), at, "base", "lidar")
+        yield "/odom", at, m.odometry(T @ np.linalg.inv(mount()), at)
+        yield "/points", at, m.cloud(local(part, T), at)
+
+
+def test_a_mount_that_is_sent_again_and_again_moves_nothing(tmp_path):
+    survey = opened(write_recording(tmp_path, "bag", with_a_mount_sent_again_and_again))
+    assert "The topic /odom places the scans." in survey.assumptions
+    moved = survey.trajectory.origins + survey.local_frame.shift
+    np.testing.assert_allclose(moved, poses()[:, :3, 3], atol=1e-6)
+
+
+def with_two_lidars(m):
+    yield from with_transforms(m)
+    for k, (T, part) in enumerate(zip(poses(), parts(), strict=True)):
+        yield "/rear/points", START + 0.5 * k, m.cloud(local(part, T), START + 0.5 * k)
+
+
+def test_topics_that_are_not_read_are_named(tmp_path):
+    survey = opened(write_recording(tmp_path, "mcap", with_two_lidars))
+    assert sum("Not read: /rear/points; one topic is" in note for note in survey.assumptions) == 1
+    alone = opened(write_recording(tmp_path, "bag", with_transforms))
+    assert not any("Not read" in note for note in alone.assumptions)
+
+
+@pytest.mark.parametrize(("form", "tool"), [("bag", "rosbag reindex"), ("mcap", "mcap recover")])
+def test_a_recording_that_was_cut_off(tmp_path, form, tool):
+    path = write_recording(tmp_path, form, with_transforms)
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    assert refusal(path).endswith(f"; {tool} mends one that was cut off.")
+
+
 @pytest.mark.parametrize("form", ["bag", "mcap", "db3"])
 def test_damage(tmp_path, form):
     def build(m):
