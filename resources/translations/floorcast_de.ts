@@ -48,6 +48,10 @@
    <translation>95 % innerhalb {band}</translation>
   </message>
   <message>
+   <source>; {0} mends one that was cut off</source>
+   <translation>; {0} heilt eine, die abgebrochen wurde</translation>
+  </message>
+  <message>
    <source>A CAD drawing in metres: walls, doors, areas, dimensions; predicted parts on layers of their own.</source>
    <translation>Eine CAD-Zeichnung in Metern: Wände, Türen, Flächen, Maße; Vorhergesagtes auf eigenen Layern.</translation>
   </message>
@@ -150,6 +154,10 @@
   <message>
    <source>A pose must be a 4 x 4 matrix of finite numbers (given {0}).</source>
    <translation>Eine Pose muss eine Matrix von 4 x 4 endlichen Zahlen sein (angegeben: {0}).</translation>
+  </message>
+  <message>
+   <source>A pose must be a rotation (3 x 3, not scaled or mirrored) with the sensor's position in metres in its last column and 0, 0, 0, 1 below (given {0}).</source>
+   <translation>Eine Pose muss eine Drehung sein (3 x 3, weder skaliert noch gespiegelt), mit der Position des Sensors in Metern in der letzten Spalte und 0, 0, 0, 1 darunter (angegeben: {0}).</translation>
   </message>
   <message>
    <source>A resolution of {0} m a pixel for {1} is not between {2} and {3}; it is in metres, like 0.05.</source>
@@ -1768,6 +1776,10 @@
    <translation>Zu wenig Speicher für diese Aufnahme.</translation>
   </message>
   <message>
+   <source>Not read: {0}; one topic is, choose it with --set input.topic=NAME.</source>
+   <translation>Nicht gelesen: {0}; gelesen wird ein Topic, zu wählen mit --set input.topic=NAME.</translation>
+  </message>
+  <message>
    <source>Not seen</source>
    <translation>Nicht gesehen</translation>
   </message>
@@ -1866,6 +1878,10 @@
   <message>
    <source>Offset tolerance</source>
    <translation>Lagetoleranz</translation>
+  </message>
+  <message>
+   <source>One pose for each of the {0} scans so far is needed (given {1}).</source>
+   <translation>Für jeden der bisher {0} Scans wird eine Pose gebraucht (angegeben: {1}).</translation>
   </message>
   <message>
    <source>Only what was seen</source>
@@ -3056,6 +3072,10 @@
    <translation>Der Ordner {0} enthält keine Scans (nummerierte Punktwolken wie 000000.ply) und keine Punktwolke.</translation>
   </message>
   <message>
+   <source>The folder {0} holds no {1}; 'floorcast plan INPUT --out {2}' makes one.</source>
+   <translation>Der Ordner {0} enthält keine Datei {1}; 'floorcast plan INPUT --out {2}' erzeugt sie.</translation>
+  </message>
+  <message>
    <source>The folder {0} holds {1} depth images but no trajectory ({2}, …); name one with --trajectory.</source>
    <translation>Der Ordner {0} enthält {1} Tiefenbilder, aber keine Trajektorie ({2}, …); mit --trajectory eine angeben.</translation>
   </message>
@@ -3182,6 +3202,10 @@
   <message>
    <source>The plugin {0} failed while {1} ({2}) and was switched off.</source>
    <translation>Die Erweiterung {0} scheiterte, während {1} ({2}), und wurde abgeschaltet.</translation>
+  </message>
+  <message>
+   <source>The points of a scan must be numbers in rows of three, (N, 3): x, y and z in metres (given an array of shape {0} and type {1}); select or stack these three columns.</source>
+   <translation>Die Punkte eines Scans müssen Zahlen in Zeilen zu dreien sein, (N, 3): x, y und z in Metern (angegeben: ein Feld der Form {0} vom Typ {1}); diese drei Spalten auswählen oder zusammenfügen.</translation>
   </message>
   <message>
    <source>The points of {0} carry no scan_id, so nobody knows when they were seen; a PLY with that property or a folder of scans can be replayed.</source>
@@ -4376,12 +4400,28 @@
    <translation>es ist eine andere Art von Datei</translation>
   </message>
   <message>
+   <source>it is larger than {0} bytes</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>it is nested too deeply</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>it refers to parts of itself (*name), which is refused</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
    <source>it wrote no file</source>
    <translation>sie schrieb keine Datei</translation>
   </message>
   <message>
    <source>its checks are not a list</source>
    <translation>seine Kontrollmaße sind keine Liste</translation>
+  </message>
+  <message>
+   <source>its image is no name of a file</source>
+   <translation type="unfinished" />
   </message>
   <message>
    <source>its list of places is damaged</source>
@@ -4434,6 +4474,10 @@
   <message>
    <source>looking at {0}</source>
    <translation>sie {0} ansah</translation>
+  </message>
+  <message>
+   <source>mcap recover</source>
+   <translation>mcap recover</translation>
   </message>
   <message>
    <source>metres</source>
@@ -4554,6 +4598,10 @@
   <message>
    <source>room: perimeter under 60 m and turning distance to the square under 1; else corridor</source>
    <translation>Raum: Umfang unter 60 m und Drehabstand zum Quadrat unter 1; sonst Flur</translation>
+  </message>
+  <message>
+   <source>rosbag reindex</source>
+   <translation>rosbag reindex</translation>
   </message>
   <message>
    <source>scan folder</source>
@@ -4848,6 +4896,10 @@
    <translation>{0} hat im Element {1} Listen verschiedener Länge; die Punkte ohne Listen schreiben.</translation>
   </message>
   <message>
+   <source>{0} has more than {1} pixels, too many for a map.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
    <source>{0} has no coordinates: its fields are {1}, not x, y, z.</source>
    <translation>{0} hat keine Koordinaten: Die Felder sind {1}, nicht x, y, z.</translation>
   </message>
@@ -4870,10 +4922,6 @@
   <message>
    <source>{0} has {1} points but {2} has the shape {3}.</source>
    <translation>{0} hat {1} Punkte, aber {2} hat die Form {3}.</translation>
-  </message>
-  <message>
-   <source>{0} has {1} x {2} pixels, too many for a map.</source>
-   <translation>{0} hat {1} x {2} Pixel, zu viele für eine Karte.</translation>
   </message>
   <message>
    <source>{0} holds 0 points.</source>
@@ -5140,8 +5188,8 @@
    <translation>{0} ist keine Karten-YAML: {1} fehlt darin.</translation>
   </message>
   <message>
-   <source>{0} is no {1} that can be read, or is damaged ({2}).</source>
-   <translation>{0} ist keine lesbare Datei der Art {1} oder ist beschädigt ({2}).</translation>
+   <source>{0} is no {1} that can be read, or is damaged ({2}){3}.</source>
+   <translation>{0} ist keine lesbare Datei der Art {1} oder ist beschädigt ({2}){3}.</translation>
   </message>
   <message>
    <source>{0} is not a KITTI scan: its {1} bytes are no whole number of points of 16 bytes.</source>
@@ -5314,6 +5362,10 @@
   <message>
    <source>{0} mesh</source>
    <translation>{0}-Netz</translation>
+  </message>
+  <message>
+   <source>{0} names an image outside its own folder ({1}), which is refused; put it beside the YAML file and write its name only.</source>
+   <translation type="unfinished" />
   </message>
   <message>
    <source>{0} needs a window.</source>
