@@ -117,6 +117,12 @@ class Proportions(QObject):
         self._follows.start()
         QTimer.singleShot(0, self, self._follows.start)  # that may take longer than it has to settle
 
+    def start_anew(self) -> None:
+        """The docks are about to stand otherwise: what they had has no say any more."""
+        self._follows.stop()
+        self._sizes = {}
+        self._rests.start()
+
     @property
     def busy(self) -> bool:
         """True while the docks are about to follow a new size."""

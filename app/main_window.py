@@ -263,6 +263,7 @@ class MainWindow(QMainWindow):
             QTimer.singleShot(0, self, lambda: self.speak(str(value)))
 
     def _arrange(self, workspace: str) -> None:
+        self._proportions.start_anew()
         kept = self._settings.value(f"workspace/{workspace}")
         before = [bar for bar in tab_bars(self) if bar.count()]
         restored = isinstance(kept, QByteArray) and self.restoreState(kept, DOCKS)

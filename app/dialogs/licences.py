@@ -12,7 +12,9 @@ from floorcast_app import theme
 OWN = "floorcast"
 LICENCE_FILE = re.compile(r"(^|/)(licen[cs]e|copying|notice)[^/]*$", re.IGNORECASE)
 LONGEST = 200_000  # characters of a licence text that are shown
-TAKEN_EXTRAS = ("gui",)
+# Qt's packages bring no text; its licence wants both beside the program (LGPL-3.0, section 4).
+LGPL = ("QT.txt", "LGPL-3.0.txt", "GPL-3.0.txt")
+OF_QT = ("PySide6_Essentials", "shiboken6")
 DATA = (
     ("Inter", "4.1", "OFL-1.1", "fonts/LICENSE.inter"),
     ("Lucide", "1.62.0", "ISC", "icons/LICENSE.lucide"),
@@ -32,6 +34,8 @@ class Work:
         """The licence itself; "" where the package brings none."""
         if self.file:
             return theme.resource(*self.file.split("/")).read_text(encoding="utf-8")
+        if self.name in OF_QT:
+            return "\n".join(theme.resource("licences", name).read_text(encoding="utf-8") for name in LGPL)
         return _text(distribution(self.name))
 
 
@@ -64,8 +68,7 @@ def _required(name: str) -> list[str]:
     out = []
     for line in lines:
         wanted, _, marker = line.partition(";")
-        extra = re.search(r"extra\s*==\s*['\"]([\w-]+)", marker)
-        if extra is None or (name == OWN and extra[1] in TAKEN_EXTRAS):
+        if "extra" not in marker:
             out.append(re.match(r"[\w.-]+", wanted.strip())[0])  # type: ignore[index]
     return out
 

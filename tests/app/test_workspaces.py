@@ -42,6 +42,18 @@ def test_the_tables_do_not_take_what_a_larger_window_gives(qtbot: QtBot) -> None
         qtbot.waitUntil(lambda: window.docks["region_list"].height() < 0.3 * window.height())
 
 
+def test_a_workspace_chosen_right_after_a_picture_is_its_own(qtbot: QtBot) -> None:
+    """For its picture the window has another size for a moment, which the docks of before were to follow."""
+    with open_window(1440, 900) as window:
+        app = ScriptedApplication(window)
+        app.run("file.open", path=SAMPLE)
+        window.picture("window", 1280, 800)
+        app.run("view.plan")
+        qtbot.wait(100)
+        qtbot.waitUntil(lambda: not window._proportions.busy)
+        assert window.docks["floor_plan"].height() > 2 * window.docks["region_list"].height()
+
+
 def test_panes_keep_their_shares_in_a_larger_window_and_come_back_exactly(qtbot: QtBot) -> None:
     def rested() -> bool:
         QApplication.processEvents()

@@ -139,6 +139,9 @@ def test_every_package_that_is_required_is_named_with_its_licence() -> None:
     assert "SIL OPEN FONT LICENSE" in found["inter"].text().upper()
     assert "ISC" in found["lucide"].text()
     assert "Redistribution" in found["numpy"].text()
+    for qt in ("pyside6-essentials", "shiboken6"):  # under the LGPL, which wants both texts and a notice
+        said = found[qt].text()
+        assert all(word in said for word in ("used unmodified", "GNU LESSER GENERAL", "GNU GENERAL PUBLIC"))
 
 
 def test_about_shows_the_licence_of_what_is_chosen(window: Window, qtbot: QtBot) -> None:
