@@ -86,7 +86,7 @@ def _rows(source: PlanSource, axis: int, sign: int) -> list[Row]:
     rows = [Row(axis, sign, 1, edges[sign], one)]
     if differs(other, [*one, *total]):
         rows.append(Row(axis, -sign, 1, edges[-sign], other))
-    if len(one) > 1:
+    if differs(total, one):
         rows.append(Row(axis, sign, 2, edges[sign], total))
     return rows
 

@@ -1,6 +1,7 @@
 """Chain dimensions: what somebody would measure along each side of the building. Metres, manhattan frame.
 
 Looking at the plan from one side, the faces that are seen whole are dimensioned, each from corner to corner.
+Steps along a curved or slanted wall are no corners: what they and the faces beside them span is one length.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from floorplan_core.geometry.runs import runs_of
 from floorplan_core.model import Region
 
 Float = NDArray[np.float64]
@@ -22,6 +24,17 @@ STRAIGHT = 1e-6  # metres: an edge is square to an axis if its ends differ less
 HIDDEN = 0.02  # metres of a face that may be hidden by others in front of it
 TOUCHING = 1e-4  # metres: a side ends at a corner that is no farther
 SAME = 0.05  # metres: two chains that differ less say the same
+STEP, STEPS = 2.0, 4  # metres of an edge of a stair at most; edges in a row that turn left and right by turns
+
+
+@dataclass(frozen=True)
+class _Face:
+    """A face of one region, square to the axis that somebody looks along."""
+
+    at: float  # metres across
+    start: float  # metres along
+    end: float
+    step: bool  # True where it is one of many that follow a curved or slanted wall
 
 
 @dataclass(frozen=True)
@@ -44,12 +57,43 @@ def chain(regions: Sequence[Region], axis: int, sign: int) -> tuple[Span, ...]:
 
     ``axis`` 1 and ``sign`` +1 is the view from the top of the page: horizontal faces of the topmost regions.
     """
-    edges = _faces(regions, axis, sign)
-    rows = np.array(edges).reshape(-1, 3)
-    seen = {(face, a, b) for face, a, b in edges if _visible(face, a, b, rows, sign) >= b - a - HIDDEN}
+    faces = [_joined(_edges(region, axis, sign)) for region in regions]
+    rows = np.array([(f.at, f.start, f.end) for own in faces for f in own]).reshape(-1, 3)
     walls = _walls(regions, 1 - axis)
-    spans = [Span(a, b, face, _guessed(walls, (a, b), face)) for face, a, b in seen]
-    return tuple(sorted(spans, key=lambda s: (s.start, s.end, s.face)))
+
+    def seen(f: _Face) -> bool:
+        return _visible(f.at, f.start, f.end, rows, sign) >= f.end - f.start - HIDDEN
+
+    lengths = {
+        (f.start, f.end, f.at)
+        for region, own in zip(regions, faces, strict=True)
+        for f in _without_steps([f for f in own if seen(f)], region, 1 - axis, sign)
+    }
+    return tuple(Span(a, b, at, _guessed(walls, (a, b), at)) for a, b, at in sorted(lengths))
+
+
+def _without_steps(faces: list[_Face], region: Region, along: int, sign: int) -> list[_Face]:
+    """The faces of a region that are seen, with one for each row of them that has steps.
+
+    Where a row ends at a step that is no end of the region, it goes on unseen, and has no length.
+    """
+    faces = sorted(faces, key=lambda f: (f.start, f.end))
+    cuts = [k for k in range(1, len(faces)) if abs(faces[k].start - faces[k - 1].end) > TOUCHING]
+    low, high = region.polygon.bounds[along], region.polygon.bounds[along + 2]
+    out: list[_Face] = []
+    for first, last in itertools.pairwise([0, *cuts, len(faces)]):
+        row = faces[first:last]
+        plain = [f for f in row if not f.step]
+        if len(plain) == len(row):
+            out += row
+        elif (not row[0].step or row[0].start - low < SAME) and (
+            not row[-1].step or high - row[-1].end < SAME
+        ):
+            at = max((f.at for f in row), key=lambda at: sign * at)
+            out.append(_Face(at, row[0].start, row[-1].end, False))
+        else:
+            out += plain
+    return out
 
 
 def ends_guessed(
@@ -102,32 +146,44 @@ def differs(one: Sequence[Span], other: Sequence[Span]) -> bool:
     return any(all(abs(s.start - o.start) > SAME or abs(s.end - o.end) > SAME for o in other) for s in one)
 
 
-def _faces(regions: Sequence[Region], axis: int, sign: int) -> list[tuple[float, float, float]]:
-    """(position across, start, end) of the edges square to ``axis`` with the inside at ``-sign``.
-
-    Edges of one region that go on in one line are one face: a corner between them is no corner of the room.
-    """
-    return [face for region in regions for face in _joined(_edges(region, axis, sign))]
-
-
-def _edges(region: Region, axis: int, sign: int) -> list[tuple[float, float, float]]:
+def _edges(region: Region, axis: int, sign: int) -> list[_Face]:
+    """The edges square to ``axis`` with the inside at ``-sign``."""
     ring = shapely.get_coordinates(shapely.orient_polygons(region.polygon).exterior)
-    along, edges = 1 - axis, []
-    for a, b in itertools.pairwise(ring.tolist()):
+    along, edges, steps = 1 - axis, [], _steps(ring)
+    for k, (a, b) in enumerate(itertools.pairwise(ring.tolist())):
         # Inside is to the left: a top face (axis 1, sign +1) runs towards -x, a right face towards +y.
         runs = (b[along] - a[along]) * sign * (1 if axis == 0 else -1)
         if abs(a[axis] - b[axis]) < STRAIGHT and runs > STRAIGHT:
-            edges.append((a[axis], *sorted((a[along], b[along]))))
+            edges.append(_Face(a[axis], min(a[along], b[along]), max(a[along], b[along]), bool(steps[k])))
     return edges
 
 
-def _joined(edges: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
-    joined: list[tuple[float, float, float]] = []
-    for face, start, end in sorted(edges):
-        if joined and face - joined[-1][0] < STRAIGHT and start - joined[-1][2] < STRAIGHT:
-            joined[-1] = (joined[-1][0], joined[-1][1], end)
+def _steps(ring: Float) -> NDArray[np.bool_]:
+    """(E,) which edges of a closed ring (E + 1, 2) are of a stair: it turns left and right by turns."""
+    run = np.diff(ring, axis=0)
+    before = np.roll(run, 1, axis=0)
+    turn = np.sign(before[:, 0] * run[:, 1] - before[:, 1] * run[:, 0])  # at the start of each edge
+    length = np.hypot(*run.T)
+    bent = (turn * np.roll(turn, -1) < 0) & (length <= STEP)
+    steps: NDArray[np.bool_] = np.zeros(len(bent), dtype=bool)
+    first = int(np.argmin(bent))  # a row may go on over the end of the ring
+    for start, end in runs_of(np.roll(bent, -first)).tolist():
+        if end - start >= STEPS:
+            row = (np.arange(start - 1, end + 1) + first) % len(bent)
+            longest = length[row[1:-1]].max()
+            steps[row[length[row] <= longest + TOUCHING]] = True  # with the edge at either end, if it is one
+    return steps
+
+
+def _joined(edges: list[_Face]) -> list[_Face]:
+    """Edges of one region that go on in one line are one face: a corner between them is no corner of it."""
+    joined: list[_Face] = []
+    for f in sorted(edges, key=lambda f: (f.at, f.start, f.end)):
+        last = joined[-1] if joined else None
+        if last is not None and f.at - last.at < STRAIGHT and f.start - last.end < STRAIGHT:
+            joined[-1] = _Face(last.at, last.start, f.end, last.step and f.step)
         else:
-            joined.append((face, start, end))
+            joined.append(f)
     return joined
 
 

@@ -66,7 +66,7 @@ def draw_dimensions(
             total = [overall_span(regions, 1 - first.axis)]
             if differs(other, [*one, *total]):
                 _draw_row(canvas, sheet, second, other, CHAIN_ROW, TEXT, style)
-            if len(one) > 1:
+            if differs(total, one):
                 _draw_row(canvas, sheet, first, total, OVERALL_ROW, TOTAL, style)
         for region in (r for r in regions if not is_rectangle(r)):
             _draw_arms(canvas, sheet, region, taken, style)
