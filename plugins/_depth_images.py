@@ -19,6 +19,7 @@ FARTHEST = 10.0  # metres: depth cameras are guessing beyond
 MOVED, TURNED = 0.05, 3.0  # metres and degrees: an image nearer to the last one used adds nothing
 PNG = b"\x89PNG\r\n\x1a\n"
 PNG_HEADER = 33  # bytes up to the end of the size
+SPARE = 1024  # bytes that packing may add to an image
 PART_FRAME = 12  # bytes of a part of a PNG beside its content: length, name, checksum
 
 
@@ -41,7 +42,7 @@ def decode_depth(data: bytes, name: str) -> Any:
     width, height = struct.unpack(">II", data[16:24])
     if not 0 < width * height <= MAX_PIXELS:
         raise InputError(f"The depth image {name} claims {width} x {height} pixels; it is damaged.")
-    if not _is_whole(data):
+    if not _is_whole(data, 8 * width * height + height + SPARE):
         raise InputError(f"The depth image {name} is damaged.")
     cv2 = import_library("cv2", "opencv-python-headless", "depth images")
     try:
@@ -57,16 +58,21 @@ def decode_depth(data: bytes, name: str) -> Any:
     return image
 
 
-def _is_whole(data: bytes) -> bool:
-    """Are the checksums of all parts of a PNG right, to its end? The decoder would say on stderr that not."""
-    at = len(PNG)
+def _is_whole(data: bytes, most: int) -> bool:
+    """Are the checksums of all parts of a PNG right, to its end? The decoder would say on stderr that not.
+
+    :param most: bytes of packed pixels; more would unpack to more than the image holds.
+    """
+    at, pixels = len(PNG), 0
     while at + PART_FRAME <= len(data):
         (length,) = struct.unpack_from(">I", data, at)
         end = at + PART_FRAME + length
         if end > len(data) or zlib.crc32(data[at + 4 : end - 4]).to_bytes(4) != data[end - 4 : end]:
             return False
-        if data[at + 4 : at + 8] == b"IEND":
-            return True
+        kind = data[at + 4 : at + 8]
+        pixels += length * (kind == b"IDAT")
+        if kind == b"IEND":
+            return pixels <= most
         at = end
     return False
 

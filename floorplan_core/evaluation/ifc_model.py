@@ -47,6 +47,10 @@ def read_ifc(path: Path) -> dict[str, Any]:
         return _document(model)
     except RuntimeError as error:  # what ifcopenshell raises for geometry that it cannot make
         raise InputError(f"The model {path.name} has a body that cannot be made: {error}.") from error
+    except (AttributeError, TypeError, ValueError, IndexError, KeyError) as error:
+        raise InputError(
+            f"The model {path.name} is damaged: something that it refers to is missing or of another kind."
+        ) from error
 
 
 def _open(path: Path) -> Any:

@@ -49,14 +49,15 @@ def damaged(name: str, what: str, advice: str = "") -> Iterator[None]:
 
 
 def _reason(error: BaseException) -> str:
-    text = " ".join(str(error).split()).rstrip(".")[:REASON_LENGTH]
+    text = " ".join(str(error).partition("****")[0].split()).rstrip(".")[:REASON_LENGTH]  # of libE57
     return text or type(error).__name__
 
 
 def spread_sample(parts: Sequence[RawChunk]) -> RawChunk:
     """At most about ``SAMPLE_POINTS`` points, as many from each part of what was read."""
     each = max(1, SAMPLE_POINTS // max(1, len(parts)))
-    return join_chunks([_thinned(part, each) for part in parts if len(part.points)])
+    held = [part for part in parts if len(part.points)] or parts[:1]
+    return join_chunks([_thinned(part, each) for part in held])
 
 
 def _thinned(chunk: RawChunk, count: int) -> RawChunk:

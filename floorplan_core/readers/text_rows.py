@@ -13,7 +13,7 @@ import warnings
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -123,6 +123,9 @@ def parse_block(block: bytes, layout: TextLayout) -> RawChunk:
 
 def _block_chunk(block: bytes, layout: TextLayout, rows: Float | None) -> RawChunk:
     """What the kernel made of the block; where it could not, what other parsers do."""
+    if rows is None and len(block) > MAX_LINE_BYTES and block.find(b"\n", 0, MAX_LINE_BYTES) < 0:
+        after = parse_block(block.partition(b"\n")[2], layout)  # of a line so long no table is made
+        return replace(after, dropped=after.dropped + 1)
     if rows is None:
         text = normalise(block, layout)
         rows = _parse_at_once(text, layout)
@@ -180,7 +183,7 @@ def _parse_lines(text: bytes, layout: TextLayout) -> RawChunk:
     values, dropped = [], 0
     used = _used(layout)
     for line in text.splitlines():
-        words = line.split(b"#", 1)[0].split()
+        words = line[:MAX_LINE_BYTES].split(b"#", 1)[0].split()
         if not words or words[0].startswith(b"//"):
             continue
         try:

@@ -4401,15 +4401,15 @@
   </message>
   <message>
    <source>it is larger than {0} bytes</source>
-   <translation type="unfinished" />
+   <translation>sie ist größer als {0} Bytes</translation>
   </message>
   <message>
    <source>it is nested too deeply</source>
-   <translation type="unfinished" />
+   <translation>sie ist zu tief verschachtelt</translation>
   </message>
   <message>
    <source>it refers to parts of itself (*name), which is refused</source>
-   <translation type="unfinished" />
+   <translation>sie verweist auf Teile von sich selbst (*name), was abgelehnt wird</translation>
   </message>
   <message>
    <source>it wrote no file</source>
@@ -4421,7 +4421,7 @@
   </message>
   <message>
    <source>its image is no name of a file</source>
-   <translation type="unfinished" />
+   <translation>ihr Bild ist kein Dateiname</translation>
   </message>
   <message>
    <source>its list of places is damaged</source>
@@ -4897,7 +4897,7 @@
   </message>
   <message>
    <source>{0} has more than {1} pixels, too many for a map.</source>
-   <translation type="unfinished" />
+   <translation>{0} hat mehr als {1} Pixel, zu viele für eine Karte.</translation>
   </message>
   <message>
    <source>{0} has no coordinates: its fields are {1}, not x, y, z.</source>
@@ -5365,7 +5365,7 @@
   </message>
   <message>
    <source>{0} names an image outside its own folder ({1}), which is refused; put it beside the YAML file and write its name only.</source>
-   <translation type="unfinished" />
+   <translation>{0} nennt ein Bild außerhalb des eigenen Ordners ({1}), was abgelehnt wird; es neben die YAML-Datei legen und nur seinen Namen schreiben.</translation>
   </message>
   <message>
    <source>{0} needs a window.</source>

@@ -60,6 +60,13 @@ def test_what_is_no_model_gives_one_sentence(tmp_path, content):
     assert "bad.ifc" in str(caught.value) and "\n" not in str(caught.value)
 
 
+def test_a_model_that_names_what_is_not_there(tmp_path):
+    path = write_house(tmp_path / "house.ifc")
+    path.write_bytes(path.read_bytes().replace(b".METRE.", b".ME\xff\xff\xff\x7f", 1))
+    with pytest.raises(InputError, match=r"is damaged: something that it refers to is missing"):
+        load_truth(path)
+
+
 def test_a_truth_is_written_and_read_back(tmp_path):
     truth = load_truth(write_house(tmp_path / "house.ifc", 31.0))
     again = parse_truth(json.loads(json.dumps(truth_document(truth))), truth.source)

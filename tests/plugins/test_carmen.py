@@ -131,6 +131,12 @@ def test_no_scans(tmp_path):
     assert "without scans" in refusal(path)
 
 
+def test_scans_of_which_nothing_returned(tmp_path):
+    path = tmp_path / "a.log"
+    path.write_text("PARAM a 1\n" + f"FLASER 180 {'1.0 ' * 180}0 0 0 0 0 0 1.5 robot 1\n" * 9)
+    assert "no point with finite coordinates" in refusal(path)
+
+
 def test_a_bomb_ends(tmp_path, monkeypatch):
     import floorcast_plugins.carmen as module
 

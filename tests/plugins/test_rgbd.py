@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import struct
+import zlib
 
 import numpy as np
 import pytest
@@ -213,6 +215,21 @@ def test_images_that_lie(tmp_path, content, says):
     for image in (root / "depth").iterdir():
         image.write_bytes(content)
     assert re.search(says, refusal(root))
+
+
+def test_more_pixels_than_the_image_has(tmp_path, capfd):
+    """A small image that unpacks to a hundred megabytes."""
+
+    def part(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = part(b"IHDR", struct.pack(">2I5B", 64, 48, 16, 0, 0, 0, 0))
+    bomb = b"\x89PNG\r\n\x1a\n" + head + part(b"IDAT", zlib.compress(bytes(100 << 20))) + part(b"IEND", b"")
+    folder = write_tum_folder(tmp_path, False, 5000.0)
+    for path in (folder / "depth").glob("*.png"):
+        path.write_bytes(bomb)
+    assert "is damaged" in refusal(folder)
+    assert capfd.readouterr().err == ""
 
 
 def test_colour_is_no_depth(tmp_path):

@@ -8,6 +8,7 @@ import pytest
 from floorplan_core.config import InputConfig
 from floorplan_core.errors import InputError
 from floorplan_core.readers import open_survey
+from tests.plugins.plugin_files import peak_memory
 from tests.readers.reader_clouds import Remembering, all_points, room
 
 AS_IT_IS = InputConfig(unit="m", up="z")
@@ -98,6 +99,16 @@ def test_lines_that_are_no_points_are_counted(tmp_path, cloud):
     points, _ = all_points(open_survey(path, config=AS_IT_IS, observer=seen))
     assert len(points) == len(cloud)
     assert any("2 lines of dirty.xyz hold no point" in w for w in seen.warnings)
+
+
+def test_a_line_without_end_costs_no_memory_and_not_what_follows(tmp_path, cloud):
+    path = tmp_path / "a.xyz"
+    path.write_text(lines(cloud[:9], " ") + "1 " * (20 << 20) + "\n" + lines(cloud[9:], " "))
+    before = peak_memory(reset=True)
+    points, _ = all_points(open_survey(path, config=AS_IT_IS))
+    assert peak_memory() - before < 100 << 20
+    assert len(cloud) <= len(points) <= len(cloud) + 20  # a piece of it may look like a point
+    np.testing.assert_allclose(points[-len(cloud) + 9 :], cloud[9:], atol=1e-5)
 
 
 def test_a_large_file_is_read_in_blocks(tmp_path, cloud, monkeypatch):
