@@ -84,8 +84,6 @@ class StandingCells:
 
 def standing_cells(evidence: Evidence, grid: OccupancyGrid) -> StandingCells:
     """The cells of the grid whose columns are hit from below table height to above furniture."""
-    if evidence.inferred:  # free space was guessed there, and what is not free says little
-        return StandingCells(grid, np.zeros(evidence.shape, dtype=bool))
     found = by_strips(evidence.hits, _heights)
     around = [widened((found & part) != 0) for part in (_FOOT, _HEAD)]
     return StandingCells(grid, ((found & _BODY) != 0) & around[0] & around[1])
