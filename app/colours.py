@@ -47,6 +47,10 @@ class Colours:
     tip: str
     tip_text: str
 
+    def region(self, label: str) -> str:
+        """Fill of a region with this label; one neutral tone for labels that the paper does not know."""
+        return {"room": self.room, "corridor": self.corridor}.get(label, self.other)
+
 
 LIGHT = Colours(
     window="#f2f4f6",

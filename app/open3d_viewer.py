@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from floorcast_app.colours import THEMES
 from floorcast_app.rendering import ramps
-from floorcast_app.rendering.cloud import facing_colours, paint, storey_height
+from floorcast_app.rendering.cloud import facing_colours, storey_height
 from floorcast_app.rendering.cloud_loader import CloudMaker, Wanted
 from floorcast_app.rendering.scene import DOOR_HEIGHT
 from floorcast_app.rendering.shapes import on_wall, outline, quad, raised, triangles_of
@@ -81,17 +81,6 @@ def open_in_open3d(workbench: Workbench) -> None:
             workbench.post(lambda: workbench.ui.tell(_failure(status), "error"))
 
     threading.Thread(target=start, name="Open3D viewer", daemon=True).start()
-
-
-def open3d_scene(plan: FloorPlan, points: NDArray[np.floating[Any]] | None = None) -> list[Any]:
-    """Open3D geometries of a plan, and of (N, 3) points in the scene's frame coloured by height."""
-    parts = list(plan_parts(plan))
-    if points is not None and len(points):
-        from floorcast_app.rendering.cloud import Cloud
-
-        cloud = Cloud(np.ascontiguousarray(points, dtype=np.float32))
-        parts.insert(0, _cloud_part(cloud.xyz, paint(cloud, "height", plan, "light").colours))
-    return [geometry_of(part) for part in parts]
 
 
 def plan_parts(plan: FloorPlan, cut: float | None = None) -> tuple[Part, ...]:
@@ -156,8 +145,7 @@ def _facing(triangles: Float, plane: LayoutPlane) -> Float:
 
 def _region_parts(region: Region, height: float) -> tuple[Part, ...]:
     """The floor as a slab, and the edges of the room above it."""
-    holds = THEMES["light"]
-    fill = {"room": holds.room, "corridor": holds.corridor}.get(region.label, holds.other)
+    fill = THEMES["light"].region(region.label)
     colour, ink = ramps.packed(fill), ramps.shifted(fill, -0.3)
     floor, edges = triangles_of(region.polygon, 0.0), outline(region.polygon, 0.0)
     up = np.cross(floor[:, 1] - floor[:, 0], floor[:, 2] - floor[:, 0])[:, 2] > 0

@@ -33,12 +33,6 @@ def colours(theme: str | None = None) -> Colours:
     return THEMES[theme or _name]
 
 
-def region_colour(label: str) -> str:
-    """Fill of a region with this label; one neutral tone for labels that the paper does not know."""
-    holds = colours()
-    return {"room": holds.room, "corridor": holds.corridor}.get(label, holds.other)
-
-
 def resource(*parts: str) -> Path:
     """A file of the resources folder."""
     return Path(str(files("floorcast_resources").joinpath(*parts)))

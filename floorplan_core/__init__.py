@@ -25,6 +25,7 @@ _HOMES = {
     "open_survey": "floorplan_core.surveys",
     "plan_to_geojson": "floorplan_core.exporters.geojson",
     "process": "floorplan_core.pipeline",
+    "process_storeys": "floorplan_core.pipeline",
     "warm_up": "floorplan_core.warm_up",
 }
 __all__ = [
@@ -40,6 +41,7 @@ __all__ = [
     "open_survey",
     "plan_to_geojson",
     "process",
+    "process_storeys",
     "warm_up",
 ]
 
@@ -50,7 +52,7 @@ if TYPE_CHECKING:
     from floorplan_core.exporters.geojson import plan_to_geojson
     from floorplan_core.exporters.ros_map import occupancy_map
     from floorplan_core.model import FloorPlan
-    from floorplan_core.pipeline import FloorPlanner, process
+    from floorplan_core.pipeline import FloorPlanner, process, process_storeys
     from floorplan_core.plan_files import export, load_plan
     from floorplan_core.surveys import open_survey
     from floorplan_core.warm_up import warm_up

@@ -27,7 +27,6 @@ MAX_SPLAT = 3  # pixels of the pane: larger squares look like confetti, smaller 
 BLOCK = 1 << 20  # points between two looks at whether the frame is still wanted
 PULL = 0.05  # metres by which surfaces win over points on them
 DEEP = 0.018  # of the span: a step in depth that is shaded by half
-SLIVER = 0.04  # metres below the floor and above the cut that are still drawn: noise of a flat surface
 BELOW = 0.35  # metres below the floor: what lies deeper is seen through glass or belongs to another storey
 GRID_REACH = 5.0  # spans from the centre to which the grid is drawn
 EVERYTHING = 1e9  # metres

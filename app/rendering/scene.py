@@ -119,8 +119,7 @@ class _View:
         if shape is None or self._hidden(item):
             return
         owner, lit = self._own(item), self._lit(item)
-        holds = self._holds
-        fill = {"room": holds.room, "corridor": holds.corridor}.get(region.label, holds.other)
+        fill = self._holds.region(region.label)
         alpha = HIGHLIGHT["floor"] if lit else ALPHA["floor"]
         self._floors.surface(shape.triangles, self._tint(item, ramps.packed(fill)), alpha, owner)
         ink = ramps.shifted(fill, -0.25 if self._look.theme == "light" else 0.25)

@@ -38,12 +38,6 @@ class Camera:
         """Of the pane, pixels."""
         return self.width / 2, self.height / 2
 
-    def to_screen(self, xy: Float) -> Float:
-        """(..., 2) metres to (..., 2) pixels."""
-        p = np.asarray(xy, dtype=np.float64)
-        middle = np.array([self.width / 2, self.height / 2])
-        return np.asarray((p - np.array(self.centre)) * np.array([self.scale, -self.scale]) + middle)
-
     def point(self, x: float, y: float) -> Point:
         """One point, metres to pixels."""
         return (

@@ -53,7 +53,7 @@ class RegionsView:
         for shape, floor, predicted, guessed in self._shapes:
             if not frame.shows("region", shape.item.id):
                 continue
-            tone = theme_tone(frame, shape.label)
+            tone = frame.colours.region(shape.label)
             painter.fillPath(floor, colour(tone))
             painter.fillPath(predicted, colour(frame.colours.canvas, 0.6))
             painter.fillPath(predicted, hatch(frame, _accent(frame, tone), 0.55))
@@ -88,7 +88,7 @@ class NamesView:
     def _paint(self, painter: QPainter, frame: Frame, shape: RegionShape) -> None:
         lines, spot = fitting_lines(frame, shape)
         # Text on hatching gets ground of its own.
-        halo = colour(theme_tone(frame, shape.label), 0.8) if shape.predicted else None
+        halo = colour(frame.colours.region(shape.label), 0.8) if shape.predicted else None
         total = sum(pixels * LEADING for _, pixels, _ in lines)
         x, y = frame.camera.point(spot.x, spot.y)
         down = -total / 2
@@ -157,12 +157,6 @@ class DimensionsView:
                 _paint_span(painter, frame, row, gap or 0.0, span)
         for width in self.model.widths:
             _paint_width(painter, frame, width)
-
-
-def theme_tone(frame: Frame, label: str) -> str:
-    """Fill of a region with this label."""
-    c = frame.colours
-    return {"room": c.room, "corridor": c.corridor}.get(label, c.other)
 
 
 def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int, int]], Spot]:

@@ -24,7 +24,6 @@ LEVEL = 0.02  # m, a floor's triangles lie this near to the lowest point of the 
 FLAT = 0.99  # cosine: a triangle that faces straight down
 UPRIGHT = 0.01  # cosine: a face whose normal lies this level
 STRAIGHT = 1e-4  # radians of yaw below which the model's own axes are those of the building
-QUARTER = np.pi / 2
 
 
 @dataclass(frozen=True)

@@ -36,19 +36,11 @@ def count_bits(bits: Bits) -> NDArray[np.int64]:
     return np.bitwise_count(bits).astype(np.int64)
 
 
-def levels_in_any(grid: Bits, columns: Iterable[int]) -> Bits:
-    """(rows,) levels of ``grid`` (rows, columns) that are set in any of its ``columns``.
-
-    Several times as fast as a reduction along so short an axis; so is :func:`levels_in_all`.
-    """
-    out = np.zeros(len(grid), dtype=np.uint64)
-    for column in columns:
-        out |= grid[:, column]
-    return out
-
-
 def levels_in_all(grid: Bits, columns: Iterable[int]) -> Bits:
-    """(rows,) levels that are set in all of the ``columns``."""
+    """(rows,) levels of ``grid`` (rows, columns) that are set in all of its ``columns``.
+
+    Several times as fast as a reduction along so short an axis.
+    """
     out = np.full(len(grid), ~np.uint64(0))
     for column in columns:
         out &= grid[:, column]

@@ -10,7 +10,7 @@ import pytest
 
 from floorcast_app import open3d_viewer
 from floorcast_app.jobs import immediately
-from floorcast_app.open3d_viewer import Part, load_parts, open3d_scene, open_in_open3d, plan_parts, save_parts
+from floorcast_app.open3d_viewer import Part, geometry_of, load_parts, open_in_open3d, plan_parts, save_parts
 from floorcast_app.workbench import Workbench
 from floorplan_core.errors import UsageError
 from tests.app.plan_panes import drawn_workbench
@@ -56,8 +56,8 @@ def test_parts_survive_the_way_to_the_other_process(tmp_path: Path) -> None:
 def test_geometries_of_open3d() -> None:
     pytest.importorskip("open3d")
     plan = small_flat()
-    points = np.random.default_rng(0).uniform(0, 2, (100, 3))
-    scene = open3d_scene(plan, points)
+    cloud = Part(np.zeros((100, 3)), np.zeros((0, 0), np.int32), np.zeros((100, 3)))
+    scene = [geometry_of(part) for part in (cloud, *plan_parts(plan))]
     kinds = [type(geometry).__name__ for geometry in scene]
     assert kinds[0] == "PointCloud" and len(scene[0].points) == len(scene[0].colors) == 100
     walls = sum(bool(len(p.walls) or len(p.observed)) for p in plan.planes)

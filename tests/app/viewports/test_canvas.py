@@ -180,7 +180,7 @@ def test_eyes_and_layers_are_respected(qtbot, drawn):
         found = [_rgb(image[pixel(pane, c).y(), pixel(pane, c).x()]) for c in corners]
         return max(found, key=found.count)
 
-    assert tone() == theme.region_colour(region.label)
+    assert tone() == theme.colours().region(region.label)
     drawn.view.set(hidden=frozenset({("region", region.id)}))
     assert tone() == theme.colours().canvas
     click(pane, inside(region))
