@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import errno
 
+from floorplan_core.cli import NO_MEMORY
 from floorplan_core.cli.signals import Terminated
 from floorplan_core.errors import FloorPlanError
 
 DONE, WRONG_USE, UNREADABLE, NO_PLAN, INTERRUPTED = 0, 2, 3, 4, 130
+UNMAPPED = "failed to map segment from shared object"  # a library that found no memory to be loaded into
 TERMINATED = 143  # 128 + SIGTERM, as shells count it
 DISK_PROBLEMS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO}
 
@@ -20,8 +22,8 @@ def explain(error: BaseException) -> tuple[str, int]:
         return "Terminated; nothing was left half-written.", TERMINATED
     if isinstance(error, KeyboardInterrupt):
         return "Interrupted; nothing was left half-written.", INTERRUPTED
-    if isinstance(error, MemoryError):
-        return "There is not enough memory for this; close other programs, or thin the input.", NO_PLAN
+    if isinstance(error, MemoryError) or UNMAPPED in str(error):
+        return NO_MEMORY, NO_PLAN
     if isinstance(error, OSError):
         return _explain_os_error(error), UNREADABLE
     return _explain_unexpected(error), NO_PLAN

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from floorplan_core.cli import NO_MEMORY
+
 if TYPE_CHECKING:
     from floorplan_core.observer import CancelToken
 
@@ -60,9 +62,12 @@ def _invoke(arguments: list[str], token: CancelToken) -> int:
 
 
 def _report(error: BaseException, arguments: list[str]) -> int:
-    from floorplan_core.cli.failures import explain
+    try:
+        from floorplan_core.cli.failures import explain
 
-    sentence, status = _explain_wrong_use(error) or explain(error)
+        sentence, status = _explain_wrong_use(error) or explain(error)
+    except MemoryError:  # so little that not even the words could be loaded
+        sentence, status = NO_MEMORY, 4
     if sentence:
         _say(sentence, error, status, arguments)
     return status

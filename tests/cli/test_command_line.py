@@ -212,6 +212,19 @@ def test_the_sentence_of_an_unexpected_error_keeps_to_one_line() -> None:
     assert status == FloorPlanError.exit_status
 
 
+def test_without_memory_for_the_words_there_is_a_sentence(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> tuple[str, int]:
+        raise MemoryError
+
+    monkeypatch.setattr("floorplan_core.cli.failures.explain", fail)
+    monkeypatch.setattr(main, "_invoke", fail)
+    assert main.run(["plan"]) == 4
+    assert "not enough memory" in one_sentence(capfd.readouterr().err)
+    assert "not enough memory" in explain(ImportError("a.so: failed to map segment from shared object"))[0]
+
+
 def test_a_closed_pipe_is_no_error() -> None:
     command = f"{sys.executable} -m floorplan_core.cli.main settings | head -n 1; echo ${{PIPESTATUS[0]}}"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
@@ -219,7 +232,6 @@ def test_a_closed_pipe_is_no_error() -> None:
     assert done.stderr == ""
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 @pytest.mark.skipif(os.name != "posix", reason="closed streams")
 @pytest.mark.parametrize(("closed", "arguments", "status"), [(1, ["settings"], 0), (2, ["info", "/nope"], 3)])
 def test_a_closed_stream_is_no_error(closed: int, arguments: list[str], status: int) -> None:
@@ -229,7 +241,7 @@ def test_a_closed_stream_is_no_error(closed: int, arguments: list[str], status: 
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_an_error_that_cannot_be_written_either_is_one_sentence(floorcast) -> None:
     with open("/dev/full", "w") as full:
         done = floorcast("info", "/nope", "--json", stdout=full)
@@ -237,6 +249,7 @@ def test_an_error_that_cannot_be_written_either_is_one_sentence(floorcast) -> No
     assert done.stderr == "floorcast: The input /nope does not exist.\n"
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_a_full_disk_behind_stdout_is_status_3(floorcast) -> None:
     with open("/dev/full", "w") as full:
         done = floorcast("settings", stdout=full)
