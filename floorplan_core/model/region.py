@@ -45,7 +45,7 @@ class Region:
     sides: tuple[RegionSide, ...] = ()
     doors: tuple[str, ...] = ()  # ids
     height: float | None = None  # metres, floor to ceiling
-    confidence: float = 1.0  # 0 to 1
+    confidence: float = 1.0  # 0 to 1, probability that a room of the building is here, about so large
     rectangles: NDArray[np.int64] | None = None  # rows of the cover
     by_hand: tuple[str, ...] = ()  # what a person did to it: "split", "merged", "label", "name"
     rise: float = 0.0  # metres from the floor of the storey up to its own; 0 but on half levels

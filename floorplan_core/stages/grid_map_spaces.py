@@ -30,6 +30,7 @@ from floorplan_core.model import (
     Region,
 )
 from floorplan_core.stages.grid_map_walls import Boundary
+from floorplan_core.stages.region_confidence import measures_of, share_seen
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -176,11 +177,12 @@ def join_covers(
 
 
 def disjoint(regions: Sequence[Region], rebuild: Any) -> list[Region]:
-    """Cut the overlaps: what two regions share belongs to the one of more confidence.
+    """Cut the overlaps: what two regions share belongs to the one of which more was seen.
 
     :param rebuild: called with a polygon and the region that it is left of; gives the region anew.
     """
-    order = sorted(range(len(regions)), key=lambda k: (-regions[k].confidence, regions[k].polygon.bounds))
+    seen = [share_seen(measures_of(r.sides, r.free_cells, r.total_cells, r.area)) for r in regions]
+    order = sorted(range(len(regions)), key=lambda k: (-seen[k], regions[k].polygon.bounds))
     shapes = [regions[k].polygon for k in order]
     tree = shapely.STRtree(shapes)
     out = list(regions)

@@ -36,6 +36,7 @@ from floorplan_core.model import (
     RegionSide,
 )
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
+from floorplan_core.stages.region_confidence import measures_of, probability
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
@@ -183,10 +184,7 @@ def make_region(
 def region_of(
     polygon: Any, rows: NDArray[np.int64] | None, sides: tuple[RegionSide, ...], free: int, total: int
 ) -> Region:
-    """A region without id, name or label; half of its confidence is the wall seen, half the floor seen."""
-    length = sum(s.length for s in sides)
-    walled = sum(s.length * s.observed for s in sides) / length if length else 0.0
-    confidence = round(0.5 * walled + 0.5 * (free / total if total else 0.0), 3)
+    """A region without id, name or label, with the probability that it is a room."""
     return Region(
         id="",
         name="",
@@ -196,7 +194,7 @@ def region_of(
         total_cells=total,
         turning_distance=0.0,
         sides=sides,
-        confidence=confidence,
+        confidence=probability(measures_of(sides, free, total, polygon.area)),
         rectangles=rows,
     )
 
