@@ -196,12 +196,14 @@ def _frame_facts(frame: ManhattanFrame) -> dict[str, float]:
     }
 
 
-def _storey_facts(storey: Storey, shift_z: float) -> dict[str, float | None]:
+def _storey_facts(storey: Storey, shift_z: float) -> dict[str, Any]:
     ceiling = None if storey.ceiling_z is None else round(storey.ceiling_z + shift_z, 3)
+    levels = [] if storey.floors is None else np.unique(storey.floors.heights).tolist()
     return {
         "storey": storey.number,
         "floor_m": round(storey.floor_z + shift_z, 3) + 0.0,
         "ceiling_m": ceiling,
+        "half_levels_m": _rounded(np.array([z for z in levels if z != storey.floor_z]) + shift_z),
     }
 
 

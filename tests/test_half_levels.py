@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 import shapely
 
+from floorplan_core.cli.info import survey_rows
 from floorplan_core.config import Config
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.model import FloorPlan, PointChunk, Reconstruction
+from floorplan_core.observer import Observer
 from floorplan_core.pipeline import process_storeys
+from floorplan_core.survey_info import describe
 from tests.box_world import LINTEL, run, survey, two_rooms
 from tests.split_world import EAST, HIGH, LANDING, UP, WEST, house
 from tests.stages.test_storeys import box
@@ -47,6 +50,15 @@ def test_the_floor_of_a_half_level_is_in_the_geojson():
     ]
     assert sorted(floors, key=str) == [pytest.approx(1.4, abs=0.03), None]
     assert written["floorcast"]["floor_z_m"] == pytest.approx(0, abs=0.03)
+
+
+def test_info_names_the_floor_of_a_half_level():
+    found = describe(house().reconstruction(), IN_THE_FILES_AXES, Observer())
+    lower, upper = found.as_dict()["storeys"]
+    assert lower["half_levels_m"] == [pytest.approx(1.4, abs=0.03)]
+    assert upper["half_levels_m"] == []
+    rows = dict(survey_rows(found, []))
+    assert rows["storeys"].splitlines()[0].endswith(", a part at 1.40 m")
 
 
 def plans_of(*parts: np.ndarray) -> tuple[FloorPlan, ...]:

@@ -181,6 +181,7 @@ def _storeys(found: SurveyInfo) -> str:
     lines = [
         f"{s['storey']}: floor at {s['floor_m']:.2f} m, "
         + ("no ceiling seen" if s["ceiling_m"] is None else f"{s['ceiling_m'] - s['floor_m']:.2f} m high")
+        + "".join(f", a part at {z:.2f} m" for z in s["half_levels_m"])
         for s in facts
     ]
     return "\n".join(lines) or "none found"
