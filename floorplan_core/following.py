@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -36,7 +37,8 @@ class Batch:
 class GrowingFolder:
     """Scans in the order of their numbers, each as soon as its file is whole and its pose is written.
 
-    The number of a scan, counted from that of the first, is its row of the trajectory.
+    The number of a scan, counted from that of the first (0, 1 or any), is its row of the trajectory; one
+    whose number is below one that was handed out comes too late.
 
     :param patience: seconds without a new scan after which the run is taken as over.
     """
@@ -54,30 +56,41 @@ class GrowingFolder:
         self.folder = folder
         self._given, self._patience, self._observer, self._wait = trajectory, patience, observer, wait
         self._sizes: dict[Path, int] = {}
+        self._start: int | None = None  # number of the scan that belongs to the first pose
+        self._last = -1  # number of the last one that was handed out
         self._text = ""
         self._poses: Trajectory | None = None
 
     def scans(self) -> Iterator[tuple[Scan, Trajectory]]:
         """Each scan once, with the poses so far; ends when nothing new came for so long."""
-        taken, idle = 0, 0.0
+        idle = 0.0
         while idle < self._patience:
             self._observer.check_cancelled()
-            poses, whole = self._known_poses(), self._whole_scans()
-            fresh = [] if poses is None else [s for s in whole[taken:] if s.row < len(poses)]
+            poses = self._known_poses()
+            rows = 0 if poses is None else len(poses)
+            fresh = [s for s in self._whole_scans(rows) if s.row < rows]
             for scan in fresh:
+                self._last = scan.number
                 yield scan, poses  # type: ignore[misc]  # fresh is empty without poses
-            taken += len(fresh)
             idle = 0.0 if fresh else idle + POLL
             if not fresh:
                 self._wait(POLL)
 
-    def _whole_scans(self) -> list[Scan]:
-        """The scans up to the first whose file still grew since the last look."""
+    def _whole_scans(self, rows: int) -> list[Scan]:
+        """The new scans up to the first whose file still grew since the last look.
+
+        The first number belongs to the first of ``rows`` poses, unless the run was on already: a robot may
+        keep its last scans only.
+        """
         found = find_scans(self.folder) if self.folder.is_dir() else []
-        sizes = {scan.path: scan.path.stat().st_size for scan in found if scan.path.exists()}
+        if found and rows and self._start is None:
+            first = found[0].number
+            self._start = 0 if 1 < first < rows else first
+        fresh = [replace(s, row=s.number - (self._start or 0)) for s in found if s.number > self._last]
+        sizes = {scan.path: size for scan in fresh if (size := _size(scan.path)) is not None}
         before, self._sizes = self._sizes, sizes
-        growing = (k for k, s in enumerate(found) if before.get(s.path) != sizes.get(s.path, -1))
-        return [replace(s, row=s.number - found[0].number) for s in found[: next(growing, len(found))]]
+        growing = (k for k, s in enumerate(fresh) if before.get(s.path) != sizes.get(s.path, -1))
+        return fresh[: next(growing, len(fresh))]
 
     def _known_poses(self) -> Trajectory | None:
         """The poses whose lines are whole; None while there are none."""
@@ -89,6 +102,13 @@ class GrowingFolder:
         if text != self._text and any(line.strip() and line[0] != "#" for line in text.splitlines()):
             self._text, self._poses = text, parse_trajectory(file, text, self._observer)
         return self._poses
+
+
+def _size(path: Path) -> int | None:
+    """Bytes; None where the file is gone."""
+    with suppress(OSError):
+        return path.stat().st_size
+    return None
 
 
 def follow(
@@ -106,7 +126,7 @@ def follow(
             f"No whole scan with a pose came into {growing.folder} in time; scans are numbered files "
             "(000000.ply, …), and each needs its row of the trajectory."
         )
-    source = folder_source(growing.folder, first.scans, first.poses)
+    source = folder_source(growing.folder, first.scans, first.poses, lambda _: None)  # they are told below
     run = assemble(source, ReadOptions(config), observer)
     return run, (_interval(run, growing.folder, b, every, observer) for b in chain([first], batches))
 
@@ -128,7 +148,7 @@ def _batches(growing: GrowingFolder, every: float) -> Iterator[Batch]:
 
 def _interval(run: Reconstruction, folder: Path, batch: Batch, every: float, observer: Observer) -> Interval:
     trajectory = local_trajectory(batch.poses, run.local_frame)
-    source = folder_source(folder, batch.scans, batch.poses)
+    source = folder_source(folder, batch.scans, batch.poses, observer.warning)
     chunks = chunk_factory(source, run.local_frame, len(trajectory), observer)()
     numbers = interval_numbers(trajectory.stamps, every)
     last = int(np.searchsorted(numbers, batch.number, side="right")) - 1

@@ -83,6 +83,54 @@ def test_scans_come_as_soon_as_file_and_pose_are_whole(tmp_path: Path) -> None:
     assert seen == [12, 8, 4, 0]  # of 16 pieces: as soon as the line of its pose is whole
 
 
+class Warned(Observer):
+    def __init__(self) -> None:
+        super().__init__()
+        self.warnings: list[str] = []
+
+    def warning(self, text: str) -> None:
+        self.warnings.append(text)
+
+
+def test_scans_that_are_deleted_or_damaged_end_no_run(tmp_path: Path) -> None:
+    """A robot that keeps the last scans only; the others keep their rows of the trajectory."""
+    files, lines = scan_files(tmp_path / "survey")
+    robot = Robot(tmp_path / "scans", files, lines)
+    names, seen = sorted(files), Warned()
+
+    def wait(seconds: float) -> None:
+        robot.wait(seconds)
+        if len(robot.steps) == 8:  # the first two are whole
+            (tmp_path / "scans" / names[0]).unlink(missing_ok=True)
+        if not robot.steps:
+            (tmp_path / "scans" / names[2]).write_bytes(b"")
+
+    growing = GrowingFolder(tmp_path / "scans", None, 2.0, seen, wait)
+    _, following = follow(growing, 1e4, InputConfig(), seen)
+    (interval,) = following
+    assert [int(c.scan_id[0]) for c in interval.chunks] == [1, 3]
+    assert len(seen.warnings) == 2
+    assert seen.warnings[0] == f"The scan {names[0]} was left out: No such file or directory."
+    assert seen.warnings[1].startswith(f"The scan {names[2]} was left out: {names[2]} claims to be PLY")
+
+
+@pytest.mark.parametrize(
+    ("numbered_from", "deleted", "rows"), [(0, 2, [2, 3]), (1, 0, [0, 1, 2, 3]), (70, 1, [0, 1, 2])]
+)
+def test_the_row_of_a_scan_is_its_number(
+    tmp_path: Path, numbered_from: int, deleted: int, rows: list[int]
+) -> None:
+    """Also where the first ones are gone already; numbers beyond the path count from the first."""
+    files, lines = scan_files(tmp_path / "survey")
+    folder = tmp_path / "scans"
+    folder.mkdir()
+    for row, content in list(enumerate(files.values()))[deleted:]:
+        (folder / f"{row + numbered_from:06d}.ply").write_bytes(content)
+    (folder / "trajectory.tum").write_text("\n".join(lines) + "\n")
+    growing = GrowingFolder(folder, None, 1.0, Observer(), lambda _: None)
+    assert [scan.row for scan, _ in growing.scans()] == rows
+
+
 def test_nothing_in_time_is_one_sentence(tmp_path: Path) -> None:
     growing = GrowingFolder(tmp_path / "absent", None, 1.0, Observer(), lambda _: None)
     with pytest.raises(InputError, match="No whole scan with a pose came into"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -133,14 +134,19 @@ def assign_rows(folder: str, scans: list[Scan], rows: int) -> list[Scan]:
     )
 
 
-def folder_source(folder: Path, scans: list[Scan], poses: Trajectory) -> PointSource:
-    """All scans as one source; each chunk carries the pose of its sensor."""
+def folder_source(
+    folder: Path, scans: list[Scan], poses: Trajectory, skip: Callable[[str], None] | None = None
+) -> PointSource:
+    """All scans as one source; each chunk carries the pose of its sensor.
+
+    :param skip: is told what is wrong with a scan that cannot be read, and the others are; None: it raises.
+    """
     ids = ScanIds(min(s.row for s in scans), max(s.row for s in scans), True)
     return PointSource(
         folder,
         f"folder of {scans[0].path.suffix.lower().lstrip('.').upper()} scans",
-        partial(_chunks, scans, poses),
-        partial(_sample, scans, poses),
+        partial(_chunks, scans, poses, skip),
+        partial(_sample, scans, poses, skip),
         None,
         True,
         ids,
@@ -149,11 +155,24 @@ def folder_source(folder: Path, scans: list[Scan], poses: Trajectory) -> PointSo
     )
 
 
-def _chunks(scans: list[Scan], poses: Trajectory) -> Iterator[RawChunk]:
+def _chunks(scans: list[Scan], poses: Trajectory, skip: Callable[[str], None] | None) -> Iterator[RawChunk]:
     for scan in scans:
-        source = _source_of(scan)
-        for chunk in source.chunks() if source else ():
-            yield _placed(chunk, scan, poses)
+        with _skipping(scan, skip):
+            source = _source_of(scan)
+            for chunk in source.chunks() if source else ():
+                yield _placed(chunk, scan, poses)
+
+
+@contextmanager
+def _skipping(scan: Scan, skip: Callable[[str], None] | None) -> Iterator[None]:
+    """Where ``skip`` wants to know, a scan that cannot be read, or is gone, ends no run."""
+    try:
+        yield
+    except (InputError, OSError) as error:
+        if skip is None:
+            raise
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        skip(f"The scan {scan.path.name} was left out: {(reason or 'unreadable').rstrip('.')}.")
 
 
 def _source_of(scan: Scan) -> PointSource | None:
@@ -172,16 +191,18 @@ def _placed(chunk: RawChunk, scan: Scan, poses: Trajectory) -> RawChunk:
     )
 
 
-def _sample(scans: list[Scan], poses: Trajectory) -> RawChunk:
+def _sample(scans: list[Scan], poses: Trajectory, skip: Callable[[str], None] | None) -> RawChunk:
     """Some points of some scans, already moved into the frame of the trajectory."""
     chosen = np.unique(np.linspace(0, len(scans) - 1, SAMPLE_SCANS).astype(int))
     each = SAMPLE_POINTS // len(chosen)
     parts = []
     for scan in (scans[k] for k in chosen.tolist()):
-        source = _source_of(scan)
-        if source is None:
+        raw = None
+        with _skipping(scan, skip):
+            source = _source_of(scan)
+            raw = source.sample() if source else None
+        if raw is None:
             continue
-        raw = source.sample()
         points = raw.points[:: max(1, len(raw.points) // each)].astype(np.float64)
         T = poses.T_world_sensor[scan.row]
         with np.errstate(over="ignore", invalid="ignore"):
