@@ -3276,6 +3276,10 @@
    <translation>Dieselbe mit vorhergesagtem Boden als frei und geratenen Wänden als belegt: um vorauszuplanen.</translation>
   </message>
   <message>
+   <source>The scan {0} was left out: {1}.</source>
+   <translation>Der Scan {0} wurde ausgelassen: {1}.</translation>
+  </message>
+  <message>
    <source>The scans of {0} that were looked at hold no points.</source>
    <translation>Die Scans von {0}, die angesehen wurden, enthalten keine Punkte.</translation>
   </message>
