@@ -83,6 +83,19 @@ def test_things_that_are_no_files(tmp_path):
     server.close()
 
 
+def test_a_folder_with_links_to_itself_pipes_and_devices(tmp_path, cloud):
+    folder = tmp_path / "run"
+    folder.mkdir()
+    write_ply(folder / "a.ply", "ascii", xyz_columns(cloud, scan_id=np.zeros(len(cloud), "i4")))
+    (folder / "self").symlink_to(folder)
+    (folder / "b.ply").symlink_to(folder / "b.ply")
+    (folder / "c.ply").symlink_to("/dev/zero")
+    os.mkfifo(folder / "d.ply")
+    os.mkfifo(folder / "trajectory.tum")
+    (folder / "trajectory.txt").symlink_to("/dev/zero")
+    np.testing.assert_allclose(all_points(open_survey(folder, config=AS_IT_IS))[0], cloud, atol=1e-5)
+
+
 def refused_trajectory(tmp_path):
     write_ply(tmp_path / "a.ply", "ascii", xyz_columns(np.zeros((3, 3))))
     return refused(tmp_path / "a.ply", trajectory=tmp_path / "pipe.ply")
