@@ -74,7 +74,10 @@ def _rebuild(polygon: Any, change: Callable[[Float], Float]) -> Any:
 
 
 def _insert(ring: Float, vertices: Float) -> Float:
-    """The ring with all ``vertices`` that lie inside its edges, in order."""
+    """The ring with all ``vertices``, sorted by x, that lie inside its edges, in order."""
+    low, high = ring.min(axis=0) - MERGE, ring.max(axis=0) + MERGE
+    vertices = vertices[slice(*np.searchsorted(vertices[:, 0], [low[0], high[0]]))]
+    vertices = vertices[(vertices[:, 1] > low[1]) & (vertices[:, 1] < high[1])]
     edge = np.diff(ring, axis=0)
     length = np.hypot(edge[:, 0], edge[:, 1])
     starts, edge, length = ring[:-1][length > 0], edge[length > 0], length[length > 0, None]

@@ -59,10 +59,14 @@ class Leaf:
 def swings(openings: Sequence[Opening], regions: Sequence[Region]) -> list[tuple[Leaf, ...]]:
     """The leaves of every opening, in their order; none swings over floor that one before it sweeps."""
     made: list[tuple[Leaf, ...]] = []
-    swept: list[Any] = []
-    for opening in openings:
-        made.append(leaves(opening, regions, swept))
-        swept += [leaf.sector for leaf in made[-1] if not leaf.shut]
+    places = [opening.polygon for opening in openings]
+    floors, doors = shapely.STRtree([r.polygon for r in regions]), shapely.STRtree(places)
+    reach = 2 * max((o.door.width for o in openings if o.door.kind == "door"), default=0.0) + APART
+    for opening, place in zip(openings, places, strict=True):
+        near = np.sort(floors.query(place, predicate="dwithin", distance=2 * REACH)).tolist()
+        before = np.sort(doors.query(place, predicate="dwithin", distance=reach)).tolist()
+        swept = [leaf.sector for k in before if k < len(made) for leaf in made[k] if not leaf.shut]
+        made.append(leaves(opening, [regions[k] for k in near], swept))
     return made
 
 

@@ -145,7 +145,7 @@ def plan_image(plan: FloorPlan, view: View | None = None, style: DrawingStyle = 
     """Figure (c)."""
     view = view or fit_view(plan.bounds)
     walls = poche(plan)
-    doors = [opening.polygon for opening in walls.openings]
+    doors = shapely.STRtree([opening.polygon for opening in walls.openings])
     names = [_place_name(view, region, doors, style) for region in plan.regions]
     image, draw = finish(_ground(plan, view, walls, names), _ground_colours(), view)
     for region in plan.regions:
@@ -267,10 +267,10 @@ def _draw_door(draw: Any, view: View, opening: Opening) -> None:
         draw.line([tuple(p) for p in view.pixels(middle).round().tolist()], fill=INK, width=SHUT_LEAF)
 
 
-def _place_name(view: View, region: Region, doors: Sequence[Any], style: DrawingStyle) -> Placed:
+def _place_name(view: View, region: Region, doors: shapely.STRtree, style: DrawingStyle) -> Placed:
     """The number or name, and the area where there is room for it, off the doors."""
-    near = [door for door in doors if region.polygon.intersects(door)]
-    rest = region.polygon.difference(shapely.union_all(near)) if near else region.polygon
+    near = doors.geometries[np.sort(doors.query(region.polygon, predicate="intersects"))]
+    rest = region.polygon.difference(shapely.union_all(near)) if len(near) else region.polygon
     free = max(shapely.get_parts(rest), key=lambda part: part.area, default=region.polygon)
     lines = (Line(region.name, NAME, "name"), Line(style.area(region.area, 1), AREA, "area"))
     floor = shapely.transform(region.polygon, view.pixels)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import shapely
 
 from floorplan_core.drawing_style import PLAIN, DrawingStyle
@@ -26,7 +27,8 @@ def place_labels(
     sheet: Sheet, plan: FloorPlan, swept: Sequence[Any], style: DrawingStyle = PLAIN
 ) -> list[Placed]:
     """A label for each region; ``swept`` are polygons on the page, doors and their swing: text keeps off."""
-    return [_place(region, sheet.geometry(region.polygon), swept, style) for region in plan.regions]
+    sectors = shapely.STRtree(swept)
+    return [_place(region, sheet.geometry(region.polygon), sectors, style) for region in plan.regions]
 
 
 def label_ground(labels: Sequence[Placed]) -> Any:
@@ -70,10 +72,9 @@ def display_name(region: Region, style: DrawingStyle = PLAIN) -> str:
     return f"{style.label(region.label)} {region.name}" if region.name.isdigit() else region.name
 
 
-def _place(region: Region, floor: Any, swept: Sequence[Any], style: DrawingStyle) -> Placed:
-    shapely.prepare(floor)
-    near = [sector for sector in swept if floor.intersects(sector)]
-    free = _largest(floor.difference(shapely.union_all(near))) if near else floor
+def _place(region: Region, floor: Any, sectors: shapely.STRtree, style: DrawingStyle) -> Placed:
+    near = sectors.geometries[np.sort(sectors.query(floor, predicate="intersects"))]
+    free = _largest(floor.difference(shapely.union_all(near))) if len(near) else floor
     placed = place(label_lines(region, style), free, PAD, floor)
     if not placed.fits and region.name.isdigit():
         number = (Line(region.name, NAME, "name"),)

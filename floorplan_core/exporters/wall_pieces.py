@@ -7,8 +7,8 @@ Geometry is shapely, metres, manhattan frame.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,9 @@ Float = NDArray[np.float64]
 
 STRAIGHT = 1e-6  # m, an edge that departs less from an axis lies along it
 SMALLEST = 1e-4  # m2, pieces below are what clipping leaves
+AROUND = 0.5  # m around an opening, where the walls are looked at that it borders on
+MOST_CELLS = 1_000_000  # between the coordinates of a polygon that is cut at once: a larger one is halved
+CUTS = 64  # lines that are tried to halve it
 
 
 @dataclass(frozen=True)
@@ -43,20 +46,27 @@ def wall_pieces(walls: Poche) -> list[WallPiece]:
         filled = [cut for cut, guessed in zip(cuts, beside_guessed, strict=True) if guessed != observed]
         whole = shapely.union_all([area, *filled])
         pieces += [(polygon, observed) for polygon in straight_pieces(whole)]
-    hosts = [_host(cut, [polygon for polygon, _ in pieces]) for cut in cuts]
+    tree = shapely.STRtree([polygon for polygon, _ in pieces])
+    openings: list[list[int]] = [[] for _ in pieces]
+    for k, cut in enumerate(cuts):
+        openings[_host(cut, tree)].append(k)
     return [
-        WallPiece(polygon, observed, tuple(k for k, host in enumerate(hosts) if host == i))
-        for i, (polygon, observed) in enumerate(pieces)
+        WallPiece(polygon, observed, tuple(own))
+        for (polygon, observed), own in zip(pieces, openings, strict=True)
     ]
 
 
 def _borders(cut: Any, wall: Any) -> float:
-    return float(cut.boundary.intersection(wall).length)
+    x0, y0, x1, y1 = cut.bounds  # the walls of a building are one polygon: only what is near is looked at
+    near = shapely.clip_by_rect(wall, x0 - AROUND, y0 - AROUND, x1 + AROUND, y1 + AROUND)
+    return float(cut.boundary.intersection(near).length)
 
 
-def _host(cut: Any, polygons: Sequence[Any]) -> int:
+def _host(cut: Any, polygons: shapely.STRtree) -> int:
     """The number of the polygon that holds most of a cut (ties: the first)."""
-    return int(np.argmax(shapely.area(shapely.intersection(np.array(polygons, dtype=object), cut))))
+    near = np.sort(polygons.query(cut))
+    held = shapely.area(shapely.intersection(polygons.geometries[near], cut))
+    return int(near[np.argmax(held)]) if held.any() else 0
 
 
 def straight_pieces(area: Any) -> list[Any]:
@@ -73,11 +83,31 @@ def _along_axes(polygon: Any) -> bool:
 
 
 def _cut(polygon: Any) -> list[Any]:
-    """Cells between all its coordinates go to the wall along x or along y, whichever is longer there."""
+    """Cells between all its coordinates go to the wall along x or along y, whichever is longer there.
+
+    The walls of a large site are cut apart first, where that cuts least of them.
+    """
     x, y = (np.unique(np.round(v, 6)) for v in shapely.get_coordinates(polygon).T)
+    if len(x) * len(y) > MOST_CELLS:
+        return [piece for half in _halves(polygon, x, y) for piece in straight_pieces(half)]
+    shapely.prepare(polygon)
     mask = shapely.contains_xy(polygon, *np.meshgrid((x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2))
     level = mask & (_runs(mask, np.diff(x)) >= _runs(mask.T, np.diff(y)).T)
     return [*_walls(level, x, y), *_walls(mask & ~level, x, y)]
+
+
+def _halves(polygon: Any, x: Float, y: Float) -> list[Any]:
+    """The parts of a polygon left and right of a line, or below and above one, near its middle."""
+    axis = 0 if len(x) >= len(y) else 1
+    edges = (x, y)[axis]
+    some = np.unique(np.linspace(len(edges) / 3, 2 * len(edges) / 3, CUTS).astype(int))
+    x0, y0, x1, y1 = polygon.bounds
+    at = (edges[some] + edges[some + 1]) / 2
+    lines = shapely.linestrings([((u, y0), (u, y1)) if axis == 0 else ((x0, u), (x1, u)) for u in at])
+    u = float(at[np.argmin(shapely.length(shapely.intersection(lines, polygon)))])
+    low = (x0, y0, u, y1) if axis == 0 else (x0, y0, x1, u)
+    high = (u, y0, x1, y1) if axis == 0 else (x0, u, x1, y1)
+    return [shapely.intersection(polygon, shapely.box(*half)) for half in (low, high)]
 
 
 def _runs(mask: Bool, lengths: Float) -> Float:
@@ -94,4 +124,6 @@ def _walls(mask: Bool, x: Float, y: Float) -> list[Any]:
     rows, columns = np.nonzero(mask)
     boxes = shapely.box(x[columns], y[rows], x[columns + 1], y[rows + 1])
     owner = labels[rows, columns]
-    return [shapely.union_all(boxes[owner == k]).simplify(STRAIGHT) for k in range(1, count + 1)]
+    order = np.argsort(owner, kind="stable")
+    first = np.searchsorted(owner[order], np.arange(1, count + 2))
+    return [shapely.union_all(boxes[order[a:b]]).simplify(STRAIGHT) for a, b in pairwise(first)]

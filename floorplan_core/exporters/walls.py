@@ -71,7 +71,8 @@ def poche(plan: FloorPlan) -> Poche:
     """The walls of ``plan``."""
     thickness = nominal_thickness(plan.doors)
     solid = _solid(plan.regions, thickness, plan.config.doors.max_thickness)
-    openings = tuple(_cut(solid, door, thickness, plan.config.doors.max_thickness) for door in plan.doors)
+    parts = shapely.STRtree(shapely.get_parts(solid))
+    openings = tuple(_cut(parts, door, thickness, plan.config.doors.max_thickness) for door in plan.doors)
     solid = solid.difference(shapely.union_all([o.polygon for o in openings]))
     guessed = _guessed(solid, plan.regions, thickness, plan.config.doors.max_thickness)
     return Poche(solid.difference(guessed), guessed, openings, thickness)
@@ -107,15 +108,19 @@ def _party_walls(polygons: Sequence[Any]) -> list[Any]:
     return bands
 
 
-def _cut(solid: Any, door: Door, thickness: float, thickest: float) -> Opening:
-    """The part of the wall that a door takes away: as deep as the wall is there."""
-    if door.turn:
-        solid, door = shapely.transform(solid, door.in_own), replace(turned := door, turn=0.0)
-        return replace(_cut(solid, door, thickness, thickest), door=turned)
+def _cut(solid: shapely.STRtree, door: Door, thickness: float, thickest: float) -> Opening:
+    """The part of the wall that a door takes away: as deep as the wall is there.
+
+    :param solid: the parts of all walls.
+    """
     start, end = door.start + ENDS * door.width, door.end - ENDS * door.width
+    own = replace(door, turn=0.0)  # all in the axes of the door's wall
     reach = _box(door.axis, door.offset - thickest, door.offset + thickest, start, end)
-    line = shapely.LineString(door.line())
-    parts = [p for p in shapely.get_parts(shapely.clip_by_rect(solid, *reach.bounds)) if p.area > 0]
+    line = shapely.LineString(own.line())
+    around = solid.geometries[solid.query(shapely.transform(reach, door.in_plan) if door.turn else reach)]
+    if door.turn:
+        around = shapely.transform(around, door.in_own)
+    parts = [p for p in shapely.get_parts(shapely.clip_by_rect(around, *reach.bounds)) if p.area > 0]
     parts.sort(key=lambda p: (round(p.distance(line), 3), p.bounds))
     beside = [p for p in parts if p.distance(line) <= door.thickness / 2 + PROBE]
     near = beside or [p for p in parts[:1] if p.distance(line) <= door.thickness / 2 + NEAR]

@@ -25,6 +25,7 @@ _JAMB = 0.1  # m from the edge of a door, where its jamb is wall
 _BESIDE = 4.0  # m of unseen wall between a door and the next corner
 _EXACT = 1e-6  # m
 _TOUCH = 0.3  # m beyond the end of the other wall
+_NOWHERE: Float = np.zeros(0)
 
 
 def crossing_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
@@ -63,10 +64,14 @@ def close_beside_doors(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> 
     space passes it, it is none.
     """
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
+    of: dict[str, list[Door]] = {}
+    for door in doors:
+        for name in dict.fromkeys(door.planes):
+            of.setdefault(name, []).append(door)
     out = []
     for plane in planes:
-        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
-        mine = [d for d in doors if plane.id in d.planes]
+        mine = of.get(plane.id, [])
+        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis]) if mine else _NOWHERE
         stubs = [_stub(plane, jamb, k, meets, mine) for d in mine for jamb, k in ((d.start, -1), (d.end, 1))]
         more = [(a, b) for a, b in stubs if b > a]
         out.append(replace(plane, walls=_joined([*plane.walls.tolist(), *more])) if more else plane)
@@ -169,7 +174,8 @@ def _has_jamb(end: float, sign: int, plane: LayoutPlane, meets: Float, past: Flo
     """
     profile = plane.profile
     assert profile is not None
-    stop = min((d for d in ((past - end) * sign).tolist() if d >= -_TOUCH), default=np.inf)
+    ahead = (past - end) * sign
+    stop = float(ahead[ahead >= -_TOUCH].min(initial=np.inf))
     hidden = min(_unseen(profile, end, sign), max(stop, 0.0))
     end, stop = end + sign * hidden, stop - hidden
     reach = min(_FLANK, max(stop, 0.0))

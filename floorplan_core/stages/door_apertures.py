@@ -142,10 +142,10 @@ def apertures(
             taken[max(0, first - 1) : last + 1] = True
             out.append((*_edges(profile, first, last), float(signal.response[k])))
     for gap in (
-        *_corner_gaps(profile, free, walls, meets.tolist(), past, config, lintels),
+        *_corner_gaps(profile, free, walls, meets, past, config, lintels),
         *_lintel_gaps(profile, free, walls, config),
         *_free_gaps(profile, free, config),
-        *_wide_corner_gaps(profile, free, walls, meets.tolist(), config),
+        *_wide_corner_gaps(profile, free, walls, meets, config),
     ):
         if not _overlaps(gap, out):
             out.append(gap)
@@ -156,7 +156,7 @@ def _corner_gaps(
     profile: WallProfile,
     free: Float,
     walls: Float,
-    meets: Sequence[float],
+    meets: Float,
     past: Float,
     config: DoorsConfig,
     lintels: bool,
@@ -182,7 +182,7 @@ def _corner_gaps(
 
 
 def _wide_corner_gaps(
-    profile: WallProfile, free: Float, walls: Float, meets: Sequence[float], config: DoorsConfig
+    profile: WallProfile, free: Float, walls: Float, meets: Float, config: DoorsConfig
 ) -> list[Aperture]:
     """The same wider than a door, where a lintel spans them and nothing else shows their edges better."""
     least, most = config.max_width, config.max_opening
@@ -240,13 +240,14 @@ def _pieces(profile: WallProfile) -> Float:
 
 
 def _corner_gap(
-    profile: WallProfile, free: Float, edge: float, sign: int, meets: Sequence[float], farthest: float
+    profile: WallProfile, free: Float, edge: float, sign: int, meets: Float, farthest: float
 ) -> Aperture | None:
     """The opening from ``edge`` to the crossing wall ahead, or to where free space ends before it.
 
     :param farthest: metres to the crossing wall.
     """
-    ahead = min((d for other in meets if (d := (other - edge) * sign) > _JAMB), default=np.inf)
+    distance = (meets - edge) * sign
+    ahead = float(distance[distance > _JAMB].min(initial=np.inf))
     if ahead > farthest:
         return None
     low, high = sorted((edge, edge + sign * ahead))
@@ -294,7 +295,12 @@ def _edges(profile: WallProfile, first: int, last: int) -> tuple[float, float]:
 def _lintel_gaps(profile: WallProfile, free: Float, walls: Float, config: DoorsConfig) -> list[Aperture]:
     """Openings that lie inside a wall run: nothing below 2 m, wall above, free space in them or through."""
     passed = np.maximum(profile.through, free)
-    gaps = (_seen_part(passed, i, j, profile.step) for i, j in runs_of(~is_solid(profile)).tolist())
+    most = config.max_opening + 2 * _JAMB + profile.step  # a stub at each end may go
+    gaps = (
+        _seen_part(passed, i, j, profile.step)
+        for i, j in runs_of(~is_solid(profile)).tolist()
+        if config.min_width <= (j - i) * profile.step <= most
+    )
     empty = [
         (i, j)
         for i, j in gaps

@@ -119,19 +119,26 @@ class DoorMeasures:
 
 @dataclass(frozen=True)
 class WallView:
-    """What lies in and behind a wall, in the bins of its plane's profile: all (B,), 0 to 1."""
+    """What lies in and behind a wall; shares, 0 to 1, in the bins of its plane's profile (B,)."""
 
     open: Float  # free within its thickness, at the heights of a body
     foot: Float  # the same near the floor
     beyond: Float  # free just behind it
+    path: Float  # (K,) where along it the sensor itself went through, metres
+    onward: Float  # (K, 2) start and end of the far walls of what may be a room behind it
 
 
-def view_wall(plane: LayoutPlane, evidence: Evidence) -> WallView:
-    """Free space along ``plane``, once for all of its apertures."""
+def view_wall(plane: LayoutPlane, evidence: Evidence, alike: Float) -> WallView:
+    """What is seen of ``plane``, once for all of its apertures.
+
+    :param alike: (K, 3) offset, start and end of all wall runs that look the way of ``plane``.
+    """
     return WallView(
         open=_free_share(plane, evidence, _WITHIN, _BODY),
         foot=_free_share(plane, evidence, _WITHIN, _FOOT),
         beyond=_free_share(plane, evidence, _BEYOND, _BODY),
+        path=_crossings(plane, evidence),
+        onward=far_walls(plane, alike),
     )
 
 
@@ -141,13 +148,8 @@ def measure(
     end: float,
     response: float,
     view: WallView,
-    evidence: Evidence,
-    alike: Float,
 ) -> DoorMeasures:
-    """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``).
-
-    :param alike: (K, 3) offset, start and end of all wall runs that look the way of ``plane``.
-    """
+    """The evidence about an aperture from ``start`` to ``end`` (metres along ``plane``)."""
     profile = plane.profile
     assert profile is not None
     a, b = (round((v - profile.start) / profile.step) for v in (start, end))
@@ -158,20 +160,25 @@ def measure(
         foot=_mean(view.foot[inner]),
         beyond=_mean(view.beyond[inner]),
         passage=_mean(profile.through[inner] > 0.4),
-        path=float(_path_crosses(plane, start, end, evidence)),
+        path=float(((view.path > start) & (view.path < end)).any()),
         lintel=_mean(profile.high[inner] > 0),
         flanks=flanks[0],
         flank=flanks[1],
         response=min(response, 1.0),
-        onward=float(goes_on(plane, start, end, alike)),
+        onward=float(goes_on(start, end, view.onward)),
     )
 
 
-def goes_on(plane: LayoutPlane, start: float, end: float, alike: Float) -> bool:
-    """True where the far wall of a room behind the aperture, or of one beside that, was seen."""
+def far_walls(plane: LayoutPlane, alike: Float) -> Float:
+    """(K, 2) start and end of those of the runs ``alike`` (offset, start, end) that a room may lie before."""
     behind = (plane.offset - alike[:, 0]) * plane.facing.sign
-    beside = np.minimum(alike[:, 2], end + _ROOM[0]) - np.maximum(alike[:, 1], start - _ROOM[0])
-    return bool(((behind > _THICK) & (behind < _ROOM[1]) & (beside > _FLANK)).any())
+    return np.asarray(alike[(behind > _THICK) & (behind < _ROOM[1]), 1:])
+
+
+def goes_on(start: float, end: float, onward: Float) -> bool:
+    """True where the far wall of a room behind the aperture, or of one beside that, was seen."""
+    beside = np.minimum(onward[:, 1], end + _ROOM[0]) - np.maximum(onward[:, 0], start - _ROOM[0])
+    return bool((beside > _FLANK).any())
 
 
 def _mean(values: NDArray[np.generic]) -> float:
@@ -200,13 +207,11 @@ def _free_share(plane: LayoutPlane, evidence: Evidence, depth: float, body: tupl
     return np.repeat(share, 2)
 
 
-def _path_crosses(plane: LayoutPlane, start: float, end: float, evidence: Evidence) -> bool:
-    """True where the sensor itself went through the aperture."""
+def _crossings(plane: LayoutPlane, evidence: Evidence) -> Float:
+    """(K,) where along the plane the sensor itself went through it."""
     a = plane.facing.axis
     u, v = evidence.path[:, a] - plane.offset, evidence.path[:, 1 - a]
-    if len(u) < 2:
-        return False
     k = np.flatnonzero(u[:-1] * u[1:] < 0)
     step = np.hypot(u[k + 1] - u[k], v[k + 1] - v[k])
     at = v[k] + (v[k + 1] - v[k]) * u[k] / (u[k] - u[k + 1])
-    return bool(((at > start) & (at < end) & (step < _STEP)).any())
+    return np.asarray(at[step < _STEP])

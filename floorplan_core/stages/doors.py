@@ -24,7 +24,7 @@ from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from floorplan_core.stages.shut_doors import find_leaves, unknown_leaves
 
-_LANE = 1.0  # m, width of the lanes in which openings are looked up
+_LANE = 1.0  # m, width of the lanes along walls in which openings are looked up, at the least
 _PASSABLE = 0.5  # m that two faces must have in common
 _BESIDE = 0.5  # m from an aperture, within which one of its planes was seen: it is cut into a wall
 _REVERSED = 0.02  # m by which noise may bring the face of a wall before its other face
@@ -65,11 +65,11 @@ def find_candidates(
         assert plane.profile is not None
         others = crossing[1 - plane.facing.axis]
         meets, past = crossing_offsets(plane, others), passing_offsets(plane, others)
-        view = view_wall(plane, evidence)
+        view = view_wall(plane, evidence, alike[plane.facing])
         for start, end, response in apertures(
             plane.profile, view.open, plane.walls, meets, config, lintels, past
         ):
-            seen = measure(plane, start, end, response, view, evidence, alike[plane.facing])
+            seen = measure(plane, start, end, response, view)
             if seen.is_open() or not has_parapet(plane.profile, start, end, seen.foot < _FOOTLESS):
                 found.append(_candidate(plane, start, end, seen))
     return found
@@ -99,26 +99,32 @@ def merge_faces(
     Where its plane was not seen beside it, an aperture is a gap in the line of a wall that stands elsewhere:
     it only adds to another. Of two in surfaces that look at each other the first stays; which way they
     look is a guess without ``viewpoints``.
-    Each is compared with those of neighbouring lanes along its wall only: a site has thousands.
+    Each is compared with those in neighbouring squares only: a site has thousands.
     """
     named = {p.id: p for p in planes}
     out: list[Candidate] = []
-    lanes: dict[tuple[int, int], list[int]] = {}
-    wide = max(_LANE, 2 * config.max_thickness)
+    squares: dict[tuple[int, int, int], list[int]] = {}
+    # No opening is longer than a square, so that two that overlap lie in one, or in two side by side.
+    sizes = max(_LANE, 2 * config.max_thickness), max((c.door.width for c in found), default=0.0) + _LANE
+
+    def square(door: Door) -> tuple[int, int, int]:
+        return door.axis, int(door.offset // sizes[0]), int((door.start + door.end) / 2 // sizes[1])
+
     for candidate in sorted(found, key=lambda c: (not _is_beside(c.door, named), *_surest_first(c))):
         door = candidate.door
-        lane = int(door.offset // wide)
-        near = sorted(k for i in (lane - 1, lane, lane + 1) for k in lanes.get((door.axis, i), ()))
+        axis, lane, along = square(door)
+        around = ((axis, lane + i, along + j) for i in (-1, 0, 1) for j in (-1, 0, 1))
+        near = sorted(k for place in around for k in squares.get(place, ()))
         k = next((k for k in near if _same_opening(door, out[k].door, config)), len(out))
         if k == len(out):
             out.append(candidate)
         else:
             other = out[k].door
-            lanes[other.axis, int(other.offset // wide)].remove(k)
+            squares[square(other)].remove(k)
             mine, *faces = (named[p] for p in (door.planes[0], *other.planes))
             if not (viewpoints and any(_look_at_each_other(mine, face) for face in faces)):
                 out[k] = _merged(out[k], candidate, mine.facing != faces[0].facing, config.min_width)
-        lanes.setdefault((door.axis, int(out[k].door.offset // wide)), []).append(k)
+        squares.setdefault(square(out[k].door), []).append(k)
     return [c for c in out if _is_beside(c.door, named)]
 
 

@@ -8,8 +8,10 @@ lintel, or hidden between two seen parts. Cost: linear in segments times the len
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +27,7 @@ from floorplan_core.stages.layout_segments import SegmentRows, wall_band
 from floorplan_core.stages.model_selection import pierce_intervals
 
 Float = NDArray[np.float64]
+_Offset = TypeVar("_Offset", LayoutPlane, LayoutSegment)
 
 _MANY_PROFILES = 64e6  # bytes of the profiles of one facing, from which they leave memory
 _LOW_FROM = 0.2  # m, skirting and floor
@@ -34,6 +37,7 @@ _PATCHY = 0.7  # m between patches of floor, where no ray told free space
 _SEEN, _STRONG = 0.12, 0.35  # of the height below 2 m: something was seen, a wall was seen
 _TAIL = (0.25, 0.7)  # m at the end of a wall in which something was seen here and there
 _HOLE = 0.4  # m, too narrow to pass
+_EXACT = 1e-6  # m
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
 
@@ -50,14 +54,17 @@ def find_planes(
     for facing in Facing:
         mine = [s for s in segments if s.facing == facing and s.structural]
         wall = [s for s in segments if s.facing.axis == facing.axis and s.structural]
+        wall.sort(key=lambda s: s.offset)
         if not mine:
             continue
         offset = np.array([s.offset for s in mine])
         reach = np.array([config.tolerance + 3 * min(s.sigma, config.tolerance) for s in mine])
         group = pierce_intervals(offset - reach, offset + reach)
         found: list[LayoutPlane] = []
-        for g in range(int(group.max()) + 1):
-            members = [s for s, k in zip(mine, group, strict=True) if k == g]
+        groups: list[list[LayoutSegment]] = [[] for _ in range(int(group.max()) + 1)]
+        for segment, g in zip(mine, group.tolist(), strict=True):
+            groups[g].append(segment)
+        for members in groups:
             name = f"p{len(planes) + len(found) + 1}"
             found.append(_plane(name, facing, members, wall, rows, evidence, config, doors))
             named.update({s.id: replace(s, plane=name) for s in members})
@@ -111,11 +118,12 @@ def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:
     front.
     """
     out = set()
+    of = {f: sorted((p for p in planes if p.facing == f), key=lambda p: p.offset) for f in Facing}
     for plane in planes:
         ahead = [
             q
-            for q in planes
-            if q.facing == plane.facing and 0.02 < (q.offset - plane.offset) * plane.facing.sign < depth
+            for q in _within(of[plane.facing], plane.offset, depth)
+            if 0.02 < (q.offset - plane.offset) * plane.facing.sign < depth
         ]
         runs = np.concatenate([q.walls for q in ahead]) if ahead else np.zeros((0, 2))
         length = float((plane.observed[:, 1] - plane.observed[:, 0]).sum())
@@ -123,6 +131,12 @@ def recessed(planes: Sequence[LayoutPlane], depth: float) -> set[str]:
         if stronger and length > 0 and _covered(plane.observed, runs) > _RECESSED * length:
             out.add(plane.id)
     return out
+
+
+def _within(of: Sequence[_Offset], offset: float, reach: float) -> Sequence[_Offset]:
+    """Those of what is sorted by offset that lie within ``reach`` metres, and perhaps some just beyond."""
+    first = bisect_left(of, offset - reach - _EXACT, key=lambda one: one.offset)
+    return of[first : bisect_right(of, offset + reach + _EXACT, key=lambda one: one.offset)]
 
 
 def _covered(spans: Float, runs: Float) -> float:
@@ -142,7 +156,7 @@ def _plane(
     name: str,
     facing: Facing,
     members: list[LayoutSegment],
-    wall: list[LayoutSegment],
+    wall: Sequence[LayoutSegment],
     rows: dict[str, SegmentRows],
     evidence: Evidence,
     config: PlanesConfig,
@@ -157,7 +171,8 @@ def _plane(
     own = _profile(facing, through, members, rows, evidence, doors)
     observed = _runs(own, (own.low > 0) | (own.high > 0))
     # A wall is more than one plane: faces, frames and recessed leaves within its thickness close it together.
-    near = [s for s in wall if abs(s.offset - offset) <= config.wall_depth]
+    close = _within(wall, offset, config.wall_depth)
+    near = [s for s in close if abs(s.offset - offset) <= config.wall_depth]
     profile = _profile(facing, through, near, rows, evidence, doors)
     plane = LayoutPlane(
         name,

@@ -45,6 +45,7 @@ class RoomSplitter:
         self._grid, self._thickness = grid, thickness
         boxes = [_boxes(d, thickness) for d in doors]
         self._doors = np.array(boxes, dtype=np.float64).reshape(-1, 3, 4)
+        self._low, self._high = self._doors[:, :, :2].min(axis=1), self._doors[:, :, 2:].max(axis=1)
 
     def split(self, polygon: Any) -> list[Any]:
         """The rooms of a region: itself, or its parts, each split again."""
@@ -64,8 +65,7 @@ class RoomSplitter:
     def _near(self, polygon: Any) -> Float:
         """(D, 3, 4) the boxes of the doors that a cell of the polygon may lie before."""
         low, high = np.array(polygon.bounds).reshape(2, 2)
-        first, last = self._doors[:, :, :2].min(axis=1), self._doors[:, :, 2:].max(axis=1)
-        reached = (first < high + self._grid.cell) & (last > low - self._grid.cell)
+        reached = (self._low < high + self._grid.cell) & (self._high > low - self._grid.cell)
         return np.asarray(self._doors[reached.all(axis=1)])
 
     def _patches(self, free: Mask, doors: Float, window: tuple[slice, slice]) -> list[Mask]:

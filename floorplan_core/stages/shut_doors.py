@@ -22,10 +22,10 @@ from floorplan_core.config import DoorsConfig
 from floorplan_core.geometry.boxes import index_boxes
 from floorplan_core.geometry.depth_medians import Faces, median_depths
 from floorplan_core.geometry.runs import runs_of
-from floorplan_core.model import Door, LayoutPlane
+from floorplan_core.model import Door, Facing, LayoutPlane
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.blockers import crossing_walls
-from floorplan_core.stages.door_evidence import goes_on
+from floorplan_core.stages.door_evidence import far_walls, goes_on
 
 Float = NDArray[np.float64]
 
@@ -71,7 +71,12 @@ def find_leaves(planes: Sequence[LayoutPlane], evidence: Evidence, config: Doors
     if not evidence.viewpoints or not walls:
         return []
     profiles, narrowest = depth_profiles(walls, evidence), config.min_width
-    deep = [_inner_recesses(w, p, planes, narrowest) for w, p in zip(walls, profiles, strict=True)]
+    of = {facing: [p for p in planes if p.facing == facing] for facing in Facing}
+    alike = {facing: crossing_walls(of[facing], facing.axis) for facing in Facing}
+    deep = [
+        _inner_recesses(w, p, of[w.facing.opposite], alike[w.facing], narrowest)
+        for w, p in zip(walls, profiles, strict=True)
+    ]
     known = [recesses(profile, narrowest) for profile in profiles]
     unsure = [k for k in range(len(walls)) if set(deep[k]) - set(known[k])]
     for k, shin in zip(unsure, _shins([walls[k] for k in unsure], evidence), strict=True):
@@ -82,13 +87,22 @@ def find_leaves(planes: Sequence[LayoutPlane], evidence: Evidence, config: Doors
 
 
 def _inner_recesses(
-    plane: LayoutPlane, profile: DepthProfile, planes: Sequence[LayoutPlane], narrowest: float
+    plane: LayoutPlane,
+    profile: DepthProfile,
+    opposite: Sequence[LayoutPlane],
+    alike: Float,
+    narrowest: float,
 ) -> list[tuple[float, float]]:
-    """Recesses in walls that are thicker, whatever was seen near the floor; windows are in outer walls."""
+    """Recesses in walls that are thicker, whatever was seen near the floor; windows are in outer walls.
+
+    :param opposite: the planes of the other facing; ``alike``: (K, 3) wall runs of the plane's own facing.
+    """
     found = recesses(replace(profile, low=profile.leaf), narrowest, inner=True)
-    behind = [q for q in planes if q.facing == plane.facing.opposite]
-    alike = crossing_walls([q for q in planes if q.facing == plane.facing], plane.facing.axis)
-    thick = [_thickness(plane, s, behind) or (_INNER if goes_on(plane, *s, alike) else 0.0) for s in found]
+    if not found:
+        return []
+    behind = [q for q in opposite if 0 < (plane.offset - q.offset) * plane.facing.sign <= _INNER]
+    onward = far_walls(plane, alike)
+    thick = [_thickness(plane, s, behind) or (_INNER if goes_on(*s, onward) else 0.0) for s in found]
     return [s for s, t in zip(found, thick, strict=True) if _depth(profile, s) + _BOARD < t]
 
 
@@ -98,13 +112,15 @@ def _depth(profile: DepthProfile, span: tuple[float, float]) -> float:
 
 
 def _thickness(plane: LayoutPlane, span: tuple[float, float], behind: Sequence[LayoutPlane]) -> float:
-    """Metres to the wall's other face, within a room's width of a recess; 0 where none was seen."""
+    """Metres to the wall's other face, within a room's width of a recess; 0 where none was seen.
+
+    :param behind: the planes that may be that face.
+    """
     start, end = span[0] - _ALONG, span[1] + _ALONG
     gaps = [
-        gap
+        (plane.offset - q.offset) * plane.facing.sign
         for q in behind
-        if 0 < (gap := (plane.offset - q.offset) * plane.facing.sign) <= _INNER
-        and float((np.minimum(q.walls[:, 1], end) - np.maximum(q.walls[:, 0], start)).max(initial=0)) > _FACE
+        if float((np.minimum(q.walls[:, 1], end) - np.maximum(q.walls[:, 0], start)).max(initial=0)) > _FACE
     ]
     return max(gaps, default=0.0)
 

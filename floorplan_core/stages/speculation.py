@@ -7,6 +7,7 @@ the patch is covered with its help. What even then stays uncovered is reported b
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -75,10 +76,11 @@ def frontier_planes(
     """
     out: list[LayoutPlane] = []
     for facing in Facing:
-        taken = [p.offset for p in planes if p.facing == facing]
+        taken = sorted(p.offset for p in planes if p.facing == facing)
         for offset in (*_frontiers(uncovered, grid, facing), *_wall_ends(uncovered, grid, facing, walls)):
-            if not any(abs(offset - other) < 2.5 * grid.cell for other in taken):
-                taken.append(offset)
+            at = bisect(taken, offset)
+            if not any(abs(offset - other) < 2.5 * grid.cell for other in taken[max(at - 1, 0) : at + 1]):
+                taken.insert(at, offset)
                 out.append(LayoutPlane(f"q{len(out) + 1}", facing, offset, speculated=True))
     return tuple(out)
 

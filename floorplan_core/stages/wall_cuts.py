@@ -24,17 +24,19 @@ _HALF = 0.05  # m on each side of a seen face
 
 
 def cut_walls(polygon: Any, walls: Float) -> Any:
-    """``polygon`` less the walls (W, 4: x0, y0, x1, y1 lines) in its interior."""
+    """``polygon`` less the walls (W, 4: lines x0, y0, x1, y1 with the lower ends first) in its interior."""
     if len(walls) == 0:
         return polygon
-    ends = walls.reshape(-1, 2, 2)
-    low, high = np.array(polygon.bounds).reshape(2, 2)
-    within = np.minimum(ends.max(axis=1), high - _DEEP) - np.maximum(ends.min(axis=1), low + _DEEP)
-    near = (within.min(axis=1) >= 0) & (within.max(axis=1) > _SHORTEST)
+    x0, y0, x1, y1 = polygon.bounds
+    across, along = (  # by column: there are as many walls as a site has, for each of its rooms
+        np.minimum(walls[:, k + 2], high - _DEEP) - np.maximum(walls[:, k], low + _DEEP)
+        for k, (low, high) in enumerate(((x0, x1), (y0, y1)))
+    )
+    near = (across >= 0) & (along >= 0) & (np.maximum(across, along) > _SHORTEST)
     if not near.any():  # most rooms, and cheaper than their interior
         return polygon
     inner = polygon.buffer(-_DEEP, join_style="mitre")
-    lines = shapely.linestrings(ends[near])
+    lines = shapely.linestrings(walls[near].reshape(-1, 2, 2))
     inside = shapely.intersection(lines, inner)
     rows = np.flatnonzero(shapely.length(inside) > _SHORTEST)
     if len(rows) == 0:

@@ -22,6 +22,7 @@ Float = NDArray[np.float64]
 
 _WALL = (0.08, 0.25)  # m between the two faces of an inner wall; a door's leaf has 4 or 5 cm, a cabinet 30
 _BOTH = 0.3  # m of a wall that both of its faces must show
+_EXACT = 1e-6  # m
 _FLUSH = 0.02  # m between two pieces of one face
 _PASSABLE, _DOORWAY = 0.5, 1.3  # m between the jambs of a door
 _THROUGH = (0.15, -0.05, -0.15, -0.25, -0.35)  # m before (+) and behind (-) a face where its doorway is free
@@ -78,8 +79,7 @@ def other_faces(segments: Sequence[LayoutSegment], tall: float) -> tuple[LayoutS
     for facing in (Facing.EAST, Facing.NORTH):
         one = [k for k, s in enumerate(segments) if s.facing == facing]
         two = [k for k, s in enumerate(segments) if s.facing == facing.opposite]
-        back_to_back = _back_to_back([segments[k] for k in one], [segments[k] for k in two])
-        for i, j in np.argwhere(back_to_back).tolist():
+        for i, j in _back_to_back([segments[k] for k in one], [segments[k] for k in two]).tolist():
             a, b = segments[one[i]], segments[two[j]]
             if a.structural or b.structural or max(a.z_max, b.z_max) > tall:
                 for k in (one[i], two[j]):
@@ -88,9 +88,17 @@ def other_faces(segments: Sequence[LayoutSegment], tall: float) -> tuple[LayoutS
     return tuple(out)
 
 
-def _back_to_back(one: Sequence[LayoutSegment], two: Sequence[LayoutSegment]) -> NDArray[np.bool_]:
-    """(A, B) True for the pairs as far apart as the faces of a wall that look away from each other."""
+def _back_to_back(one: Sequence[LayoutSegment], two: Sequence[LayoutSegment]) -> NDArray[np.int64]:
+    """(P, 2) the pairs as far apart as the faces of a wall that look away from each other, in order."""
     a, b = (np.array([(s.offset, s.start, s.end) for s in of]).reshape(-1, 3) for of in (one, two))
-    apart = a[:, None, 0] - b[None, :, 0]
-    common = np.minimum(a[:, None, 2], b[None, :, 2]) - np.maximum(a[:, None, 1], b[None, :, 1])
-    return np.asarray((apart > _WALL[0]) & (apart <= _WALL[1]) & (common >= _BOTH))
+    order = np.argsort(b[:, 0])
+    b, widest = b[order], _WALL[1] + _EXACT  # what is just beyond is sorted out below
+    first, last = np.searchsorted(b[:, 0], a[:, 0] - widest), np.searchsorted(b[:, 0], a[:, 0])
+    count = np.maximum(last - first, 0)
+    i = np.repeat(np.arange(len(a)), count)
+    j = np.arange(len(i)) - np.repeat(np.cumsum(count) - count, count) + first[i]
+    apart = a[i, 0] - b[j, 0]
+    common = np.minimum(a[i, 2], b[j, 2]) - np.maximum(a[i, 1], b[j, 1])
+    kept = (apart > _WALL[0]) & (apart <= _WALL[1]) & (common >= _BOTH)
+    pairs = np.column_stack([i[kept], order[j[kept]]])
+    return np.asarray(pairs[np.lexsort(pairs.T[::-1])])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Facing, LayoutPlane, WallProfile
 from floorplan_core.stages.door_apertures import apertures
-from floorplan_core.stages.door_evidence import DoorMeasures, WallView, measure
+from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
 from tests.drawn_cells import drawn
 
 DOOR = DoorMeasures(1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.9, 1.0)
@@ -76,8 +76,8 @@ def test_a_door_leads_on_where_a_room_behind_it_has_its_far_wall(offset, start, 
     none = np.zeros(240)
     plane = LayoutPlane("p1", Facing.EAST, 10.0, profile=WallProfile(0.0, 0.05, none, none, none))
     alike = np.array([[10.0, 0.0, 4.0], [offset, start, start + 4.0]])
-    view = WallView(none, none, none)
-    assert measure(plane, 1.0, 2.0, 0.9, view, drawn([], []), alike).onward == onward
+    view = view_wall(plane, drawn([], []), alike)
+    assert measure(plane, 1.0, 2.0, 0.9, view).onward == onward
 
 
 def test_words_name_what_was_found():
