@@ -241,7 +241,13 @@ class CandidatesConfig(Section):
         ge=1,
         le=10000,
     )
-    max_count: int = setting(10_000_000, "", "More valid rectangles than this are refused.", ge=1, le=10**9)
+    max_count: int = setting(
+        10_000_000,
+        "",
+        "More valid rectangles than this on 20,000 m2 are refused; a larger site may have as many more.",
+        ge=1,
+        le=10**9,
+    )
 
 
 class CoverConfig(Section):

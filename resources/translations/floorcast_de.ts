@@ -1640,8 +1640,8 @@
    <translation>Gespiegelt</translation>
   </message>
   <message>
-   <source>More valid rectangles than this are refused.</source>
-   <translation>Mehr gültige Rechtecke werden abgelehnt.</translation>
+   <source>More valid rectangles than this on 20,000 m2 are refused; a larger site may have as many more.</source>
+   <translation>Mehr gültige Rechtecke auf 20.000 m² werden abgelehnt; ein größeres Gelände darf entsprechend mehr haben.</translation>
   </message>
   <message>
    <source>Mouse</source>
