@@ -68,9 +68,12 @@ def _snap_sorted(values: Float) -> Float:
 
 
 def _rebuild(polygon: Any, change: Callable[[Float], Float]) -> Any:
-    """A polygon of the changed rings, each (N, 2) with its last vertex equal to its first."""
-    shell = change(shapely.get_coordinates(polygon.exterior))
-    return shapely.Polygon(shell, [change(shapely.get_coordinates(h)) for h in polygon.interiors])
+    """A polygon of the changed rings, each (N, 2) with its last vertex equal to its first.
+
+    A hole that is thinner than what is merged has nothing left inside, and is left out.
+    """
+    shell, *holes = (change(shapely.get_coordinates(r)) for r in (polygon.exterior, *polygon.interiors))
+    return shapely.Polygon(shell, [h for h in holes if len(h) > 3 and shapely.Polygon(h).area > MERGE**2])
 
 
 def _insert(ring: Float, vertices: Float) -> Float:

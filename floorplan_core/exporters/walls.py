@@ -146,8 +146,8 @@ def _guessed(solid: Any, regions: Sequence[Region], thickness: float, thickest: 
     strips = _strips(sides, thickness, thickest)
     guessed = shapely.union_all(strips[:, speculated]).intersection(solid)
     seen = strips[:, ~speculated].ravel()
-    shapely.prepare(guessed)
-    near = seen[shapely.intersects(guessed, seen)]
+    meets = shapely.STRtree(shapely.get_parts(guessed)).query(seen, predicate="intersects")[0]
+    near = seen[np.unique(meets)]
     return guessed.difference(shapely.union_all(near)).buffer(0)
 
 

@@ -1,8 +1,7 @@
 """Which rectangles of the cover make one region: those that overlap, or meet where there is no wall.
 
 Planes of opposite facing rarely coincide, so two rectangles of one room may meet in a border a few
-centimetres wide; an open border is bridged. Cost: pairs of rectangles by sorting out with arrays, then walls
-near a border.
+centimetres wide; an open border is bridged. Cost: pairs of rectangles that meet, then walls near a border.
 """
 
 from __future__ import annotations
@@ -10,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import shapely
 from numba import njit
 from numpy.typing import NDArray
 
@@ -39,75 +39,58 @@ def connected_groups(bounds: Float, walls: dict[int, Float]) -> list[tuple[NDArr
     """
     if len(bounds) == 0:
         return []
-    linked = _overlapping(bounds)
-    borders = _shared_borders(bounds, _components(linked))
+    a, b = _neighbours(bounds)
+    wide, high = (  # metres in common along x and along y; negative: between them
+        np.minimum(bounds[a, k + 2], bounds[b, k + 2]) - np.maximum(bounds[a, k], bounds[b, k])
+        for k in (0, 1)
+    )
+    over = (wide > _OVERLAP) & (high > _OVERLAP)
+    label = _components(len(bounds), a[over], b[over])
+    least, most = np.minimum(wide, high), np.maximum(wide, high)
+    parted = (least < 0) | (label[a] != label[b])  # of two that touch and belong together none is asked for
+    shared = parted & (least > -_OVERLAP) & (least <= _OVERLAP) & (most > _PASSAGE)
+    borders = np.column_stack([a, b, np.where(wide < high, 0, 1)])[shared]
     border, boxes = _open_borders(bounds, borders, *(_by_offset(walls[axis]) for axis in (0, 1)))
     first, second, _ = borders[border].T
-    linked[first, second] = linked[second, first] = True
-    label = _components(linked)
+    label = _components(len(bounds), np.append(a[over], first), np.append(b[over], second))
     groups = [np.flatnonzero(label == k) for k in range(int(label.max()) + 1)]
     return [(g, boxes[label[first] == k]) for k, g in enumerate(groups)]  # by row, as they were found
 
 
-@njit(cache=True, nogil=True)
-def _overlapping(bounds):  # type: ignore[no-untyped-def]
-    """(C, C) which rectangles overlap."""
-    linked = np.empty((len(bounds), len(bounds)), dtype=np.bool_)
-    for a in range(len(bounds)):
-        for b in range(a, len(bounds)):
-            wide, high = _common(bounds, a, b)
-            linked[a, b] = linked[b, a] = wide > _OVERLAP and high > _OVERLAP
-    return linked
+def _neighbours(bounds: Float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The pairs of rectangles that overlap or lie close to each other, in order; each pair once."""
+    low, high = bounds[:, :2] - _OVERLAP, bounds[:, 2:] + _OVERLAP
+    around = shapely.box(*low.T, *high.T)
+    a, b = shapely.STRtree(around).query(around)
+    once = a < b
+    order = np.lexsort((b[once], a[once]))
+    return a[once][order], b[once][order]
 
 
-@njit(cache=True, nogil=True)
-def _shared_borders(bounds, label):  # type: ignore[no-untyped-def]
-    """(P, 3) the pairs that do not overlap but share a border, in order, and the axis across it.
-
-    Of two that touch and belong together anyway (``label``) none is asked for.
-    """
-    found = []
-    for a in range(len(bounds)):
-        for b in range(a + 1, len(bounds)):
-            wide, high = _common(bounds, a, b)
-            least, most = min(wide, high), max(wide, high)
-            parted = least < 0 or label[a] != label[b]
-            if parted and -_OVERLAP < least <= _OVERLAP and most > _PASSAGE:
-                found.append((a, b, 0 if wide < high else 1))
-    borders = np.empty((len(found), 3), dtype=np.int64)
-    for k in range(len(found)):
-        borders[k, 0], borders[k, 1], borders[k, 2] = found[k]
-    return borders
-
-
-@njit(cache=True, nogil=True)
-def _common(bounds, a, b):  # type: ignore[no-untyped-def]
-    """Metres that two rectangles have in common along x and along y; negative: between them."""
-    wide = min(bounds[a, 2], bounds[b, 2]) - max(bounds[a, 0], bounds[b, 0])
-    return wide, min(bounds[a, 3], bounds[b, 3]) - max(bounds[a, 1], bounds[b, 1])
-
-
-@njit(cache=True, nogil=True)
-def _components(linked):  # type: ignore[no-untyped-def]
-    """(C,) the component of each node of a symmetric adjacency matrix, numbered by their first nodes.
+def _components(count: int, first: NDArray[np.int64], second: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(C,) the component of each of ``count`` nodes of which pairs are linked, numbered by their first nodes.
 
     A few lines, where the module of SciPy that has it takes a quarter of a second to import.
     """
-    label = np.full(len(linked), -1, dtype=np.int64)
-    open_, number = np.empty(len(linked), dtype=np.int64), 0
-    for node in range(len(linked)):
-        if label[node] >= 0:
-            continue
-        label[node], open_[0], many = number, node, 1
-        while many > 0:
-            many -= 1
-            at = open_[many]
-            for other in range(len(linked)):
-                if linked[at, other] and label[other] < 0:
-                    label[other], open_[many] = number, other
-                    many += 1
-        number += 1
-    return label
+    return np.asarray(np.unique(_roots(count, first, second), return_inverse=True)[1])
+
+
+@njit(cache=True, nogil=True)
+def _roots(count, first, second):  # type: ignore[no-untyped-def]
+    """(C,) the first node of the component of each node."""
+    root = np.arange(count)
+    for k in range(len(first)):
+        a, b = first[k], second[k]
+        while root[a] != a:
+            root[a] = root[root[a]]
+            a = root[a]
+        while root[b] != b:
+            root[b] = root[root[b]]
+            b = root[b]
+        root[max(a, b)] = min(a, b)
+    for node in range(count):
+        root[node] = root[root[node]]  # that of a lower node is known
+    return root
 
 
 def _by_offset(walls: Float) -> Float:

@@ -33,6 +33,7 @@ _LEAF = (0.3, 1.8)  # m above the floor, where a leaf and no lintel is
 _LOW = (0.08, 0.3)  # m above the floor, where a leaf stands back and the sill of a window does not
 _LINTEL = (2.2, 2.6)  # m above the floor: above a door
 _BANDS = (_LEAF, _LOW, _LINTEL)
+_AT_ONCE = 1000  # walls whose surfels are held together: those of a whole site would be most of them
 _DEPTH = (0.025, 0.125)  # m behind the face at which a leaf hangs; deeper are panes, but in inner walls
 _SHIN = (0.3, 0.7)  # m above the floor: below the sill of most windows
 _BOARD, _INNER = 0.03, 0.25  # m, thickness of a leaf, and of the inner walls that hold one
@@ -154,8 +155,11 @@ def _box(plane: LayoutPlane) -> tuple[float, float, float, float]:
 
 def depth_profiles(walls: Sequence[LayoutPlane], evidence: Evidence) -> list[DepthProfile]:
     """The depths of the surfels that were seen from the side to which each plane looks, by plane."""
-    starts, depths = _depths(walls, evidence, _BANDS)
-    return [DepthProfile(a, evidence.fine, *of) for a, of in zip(starts, depths, strict=True)]
+    found = []
+    for first in range(0, len(walls), _AT_ONCE):
+        starts, depths = _depths(walls[first : first + _AT_ONCE], evidence, _BANDS)
+        found += [DepthProfile(a, evidence.fine, *of) for a, of in zip(starts, depths, strict=True)]
+    return found
 
 
 def _depths(

@@ -199,3 +199,12 @@ def test_touching_regions_stay_a_coverage_after_rounding(
     done = rounded(whole, lambda xy: xy @ turn + 12345.678, 4)
     assert all(p.is_valid for p in done)
     assert shapely.coverage_is_valid(done)
+
+
+def test_a_hole_too_thin_to_be_written_is_left_out():
+    room, thin = shapely.box(0, 0, 4, 3), shapely.box(1, 1, 1.0002, 2)
+    (polygon,) = matched([room.difference(thin)])
+    assert polygon.is_valid
+    assert polygon.equals(room)
+    (kept,) = matched([room.difference(shapely.box(1, 1, 1.2, 2))])
+    assert len(kept.interiors) == 1

@@ -10,6 +10,7 @@ import pytest
 
 from floorplan_core.config import DoorsConfig
 from floorplan_core.model import Door, Facing, FloorPlan, LayoutPlane
+from floorplan_core.stages.blockers import crossing_walls
 from floorplan_core.stages.shut_doors import DepthProfile, _inner_recesses, recesses
 from tests.box_world import EYE, HEIGHT, LINTEL, Box, run, survey, two_rooms
 
@@ -122,7 +123,8 @@ def test_in_inner_walls_leaves_may_be_deep_and_hidden_near_the_floor(depth, thic
     plane = LayoutPlane("a", Facing.EAST, 4.0, walls=np.array([[1.0, 4.0]]))
     other = LayoutPlane("b", Facing.WEST, 4.0 - thick, walls=np.array([[1.0, 2.1]]) + along)
     seen = replace(profile(depth), low=np.full(60, np.nan))
-    places = _inner_recesses(plane, seen, [plane, other], DoorsConfig().min_width)
+    alike = crossing_walls([plane], 0)
+    places = _inner_recesses(plane, seen, [other], alike, DoorsConfig().min_width)
     assert places == ([pytest.approx((2.0, 2.9), abs=1e-6)] if found else [])
 
 
