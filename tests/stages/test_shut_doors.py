@@ -132,7 +132,8 @@ def test_in_inner_walls_leaves_may_be_deep_and_hidden_near_the_floor(depth, thic
 def test_where_the_other_face_was_not_seen_the_room_behind_tells_an_inner_wall(behind, found):
     plane = LayoutPlane("a", Facing.EAST, 4.0, walls=np.array([[1.0, 4.0]]))
     far = LayoutPlane("b", Facing.EAST, 4.0 - behind, walls=np.array([[1.0, 4.0]]))
-    places = _inner_recesses(plane, profile(0.14), [plane, far], DoorsConfig().min_width)
+    alike = crossing_walls([plane, far], 0)
+    places = _inner_recesses(plane, profile(0.14), [], alike, DoorsConfig().min_width)
     assert len(places) == found
 
 
