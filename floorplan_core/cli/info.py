@@ -125,7 +125,11 @@ def survey_rows(found: SurveyInfo, paths: list[Path]) -> Rows:
 
 def _kind(found: SurveyInfo, paths: list[Path]) -> str:
     size = sum(path.stat().st_size for path in paths if path.is_file())
-    return f"{found.format} survey" + (f", {size / 1e6:,.1f} MB" if size else "")
+    return f"{found.format} survey" + (f", {_size(size)}" if size else "")
+
+
+def _size(size: int) -> str:
+    return f"{size / 1e6:,.1f} MB" if size >= 1e5 else f"{size / 1e3:,.1f} kB"
 
 
 def _points(found: SurveyInfo) -> str:
@@ -169,7 +173,7 @@ def _manhattan(found: SurveyInfo) -> str:
     doubt = misfit(found.frame) if other is None else ()
     return (
         f"{facts['support']:.0%} of {facts['wall_area_m2']:.0f} m2 of wall within 5 degrees of the frame "
-        f"(yaw {facts['yaw_deg']:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}"
+        f"(yaw {round(facts['yaw_deg'], 2) + 0.0:.2f}, tilt {facts['tilt_deg']:.2f} degrees){wing}"
         + "".join(f"\n{sentence}" for sentence in doubt)
     )
 
