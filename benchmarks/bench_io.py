@@ -156,6 +156,8 @@ def bench(kind: str, count: int, folder: Path) -> dict[str, Any]:
         write(path, points)
         files = [path] if path.is_file() else list(path.iterdir())
         found[name] = {how: run_apart(path, how, twice=name == "tenth") for how in ("plain", "planned")}
+        if any(round(took["points"]) != points for took in found[name].values()):
+            raise RuntimeError(f"{path.name}: not all of its {points:,} points were read.")
         found["mb"] = sum(file.stat().st_size for file in files) / 1e6
         shutil.rmtree(path) if path.is_dir() else path.unlink()
     return found
