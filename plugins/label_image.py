@@ -5,6 +5,6 @@ from floorplan_core.api import Exporter, hookimpl
 
 @hookimpl
 def floorcast_exporters() -> list[Exporter]:
-    from floorplan_core.exporters.label_image import LabelImageExporter
+    from floorplan_core.exporters.label_image import LabelImageExporter, PredictedLabelImageExporter
 
-    return [LabelImageExporter()]
+    return [LabelImageExporter(), PredictedLabelImageExporter()]

@@ -32,7 +32,7 @@ from floorplan_core.cli.options import (
 )
 from floorplan_core.cli.plan_files import (
     DRAWINGS,
-    LABEL_IMAGE,
+    LABEL_IMAGES,
     PICTURES,
     STOREY_FOLDER,
     save_run,
@@ -82,7 +82,7 @@ def plan(
     console = Console(context, as_json=as_json, quiet=quiet)
     stages = stages_of(_only(survey)) if from_stage else None
     settings, style = resolve_config(config, set_, stages), DrawingStyle(units, language, title)
-    names = DRAWINGS + (PICTURES if pictures else ()) + ((LABEL_IMAGE,) if labels_png else ())
+    names = DRAWINGS + (PICTURES if pictures else ()) + (LABEL_IMAGES if labels_png else ())
     with output_folder(out) as staging, console.observer(keep_results=save_stages) as observer:
         if from_stage and stages:
             plans = iter([replan(stages, from_stage, settings, observer)])

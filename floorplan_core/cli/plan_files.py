@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 DRAWINGS = ("plan.geojson", "plan.svg")
 PICTURES = ("planes.png", "occupancy.png", "plan.png")
-LABEL_IMAGE = "labels.png"
+LABEL_IMAGES = ("labels.png", "labels.predicted.png")
 STOREY_FOLDER = "storey-{}"
 
 

@@ -2,12 +2,14 @@
 
 For a plan of a grid map the image has exactly the size of the map's; any other plan is drawn in the world's
 axes at the resolution of its occupancy grid. Pixel values are the places of the regions in the plan from 1; 0
-is no region. 8 bits up to 255 regions, 16 bits beyond.
+is no region. 8 bits up to 255 regions, 16 bits beyond. A name that ends in ``labels.predicted.png`` has the
+regions only where their floor is predicted, not seen.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import shapely
@@ -25,12 +27,24 @@ class LabelImageExporter:
     name = "Label image"
     suffixes: tuple[str, ...] = (".labels.png",)
     description = "one grey value for each region, on the raster of the grid map"
+    predicted = False
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write the label image of ``plan``; the picture's first row is the top of the map."""
-        labels = region_labels(plan)[::-1]
+        labels = region_labels(plan)
+        if self.predicted:
+            labels[~cells_in(plan.speculated(), plan, plan.raster or world_raster(plan))] = 0
         kind = np.uint8 if len(plan.regions) <= _EIGHT_BITS else np.uint16
-        Image.fromarray(np.ascontiguousarray(labels.astype(kind))).save(path, format="PNG")
+        Image.fromarray(np.ascontiguousarray(labels[::-1].astype(kind))).save(path, format="PNG")
+
+
+class PredictedLabelImageExporter(LabelImageExporter):
+    """Writes ``labels.predicted.png``."""
+
+    name = "Label image of predictions"
+    suffixes = (".labels.predicted.png",)
+    description = "the same where the floor is predicted, not seen; 0 elsewhere"
+    predicted = True
 
 
 def region_labels(plan: FloorPlan) -> NDArray[np.int32]:
@@ -44,6 +58,18 @@ def region_labels(plan: FloorPlan) -> NDArray[np.int32]:
         window, inside = polygon_window(cells, np.zeros(2), 1.0, raster.shape)
         labels[window][inside] = number
     return labels
+
+
+def cells_in(area: Any, plan: FloorPlan, raster: MapRaster) -> NDArray[np.bool_]:
+    """(ny, nx) cells whose centre lies in ``area`` (manhattan frame)."""
+    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
+
+    mask = np.zeros(raster.shape, dtype=bool)
+    for part in shapely.get_parts(area).tolist():
+        cells = shapely.transform(part, lambda xy: raster.from_world(plan.to_world(xy)))
+        window, inside = polygon_window(cells, np.zeros(2), 1.0, raster.shape)
+        mask[window] |= inside
+    return mask
 
 
 def world_raster(plan: FloorPlan) -> MapRaster:

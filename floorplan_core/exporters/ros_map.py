@@ -9,14 +9,13 @@ free, guessed walls are occupied, and what was seen stays as it was seen.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
-from floorplan_core.exporters.label_image import world_raster
+from floorplan_core.exporters.label_image import cells_in, world_raster
 from floorplan_core.exporters.walls import poche
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, FloorPlan, MapRaster
 
@@ -74,7 +73,7 @@ def occupancy(plan: FloorPlan, raster: MapRaster, predicted: bool) -> NDArray[np
         floor = shapely.union_all([r.polygon for r in plan.regions] + [o.polygon for o in walls.openings])
         solid = shapely.union_all([walls.observed, walls.guessed])
         for area, state in ((floor, FREE), (solid, OCCUPIED)):
-            states[unseen & _mask(area, plan, raster)] = state
+            states[unseen & cells_in(area, plan, raster)] = state
     return states
 
 
@@ -91,18 +90,6 @@ def _seen(plan: FloorPlan, raster: MapRaster) -> NDArray[np.uint8]:
     states = np.full(nx * ny, UNOBSERVED, dtype=np.uint8)
     states[inside] = grid.states[iy[inside], ix[inside]]
     return states.reshape(ny, nx)
-
-
-def _mask(area: Any, plan: FloorPlan, raster: MapRaster) -> NDArray[np.bool_]:
-    """(ny, nx) cells whose centre lies in ``area`` (manhattan frame)."""
-    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
-
-    mask = np.zeros(raster.shape, dtype=bool)
-    for part in shapely.get_parts(area).tolist():
-        cells = shapely.transform(part, lambda xy: raster.from_world(plan.to_world(xy)))
-        window, inside = polygon_window(cells, np.zeros(2), 1.0, raster.shape)
-        mask[window] |= inside
-    return mask
 
 
 def _header(raster: MapRaster, image: str) -> str:

@@ -4684,6 +4684,10 @@
    <translation>die Fahrt</translation>
   </message>
   <message>
+   <source>the same where the floor is predicted, not seen; 0 elsewhere</source>
+   <translation>dasselbe, wo Boden vorhergesagt und nicht gesehen ist; sonst 0</translation>
+  </message>
+  <message>
    <source>the survey</source>
    <translation>die Aufnahme</translation>
   </message>

@@ -15,10 +15,16 @@ from PIL import Image
 from floorplan_core import intermediates
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
-from floorplan_core.exporters.label_image import region_labels, world_raster
+from floorplan_core.exporters.label_image import (
+    LabelImageExporter,
+    PredictedLabelImageExporter,
+    region_labels,
+    world_raster,
+)
 from floorplan_core.grid_pipeline import plan_grid_map
 from floorplan_core.model import FREE, OCCUPIED, UNOBSERVED, FloorPlan, GridMap
 from floorplan_core.observer import Observer
+from tests.factories import l_corridor
 from tests.grid_map.map_drawings import CELL, DOORS, ROOMS, fill, office, turned, write_image, write_yaml
 
 
@@ -209,6 +215,20 @@ def test_observer_hears_the_stages_and_warnings() -> None:
         "frame", "doors", "segments", "planes", "candidates", "cover", "regions", "labels"
     ]  # fmt: skip
     assert set(made.seconds) == set(listener.stages)
+
+
+def test_a_second_label_image_has_what_is_predicted_only(tmp_path: Path) -> None:
+    plan = l_corridor(2, 2)
+    images = []
+    for exporter, name in ((LabelImageExporter(), "a.png"), (PredictedLabelImageExporter(), "b.png")):
+        exporter.write(plan, tmp_path / name)
+        with Image.open(tmp_path / name) as image:
+            images.append(np.asarray(image))
+    labels, predicted = images
+    there = predicted > 0
+    assert there.any() and (labels[there] == predicted[there]).all()
+    cell = world_raster(plan).cell
+    assert there.sum() * cell**2 == pytest.approx(plan.speculated().area, rel=0.1)
 
 
 # the command
