@@ -11,6 +11,8 @@ import sys
 from types import ModuleType
 from typing import Any
 
+from floorplan_core.errors import UsageError
+
 _PLOTS = "open3d.visualization.draw_plotly"
 _LEARNING = "open3d.ml"
 _NAMES = ("get_plotly_fig", "draw_plotly", "draw_plotly_server")
@@ -19,14 +21,20 @@ _NAMES = ("get_plotly_fig", "draw_plotly", "draw_plotly_server")
 def load_open3d() -> Any:
     """The module ``open3d``.
 
+    :raises UsageError: if it is not installed: a robot's computer may do without it.
     :raises OutputError: if, packed in the frozen program, its library finds no room on the disk.
     """
     if "open3d" not in sys.modules and _PLOTS not in sys.modules:
         sys.modules[_PLOTS] = _stub()
         if getattr(sys, "frozen", False):
             sys.modules[_LEARNING] = ModuleType(_LEARNING, "Left out of the frozen program.")
-    import open3d
-
+    try:
+        import open3d
+    except ImportError as error:
+        raise UsageError(
+            "Simulating needs Open3D, which is not installed or cannot be loaded; install it with: "
+            "pip install open3d."
+        ) from error
     return open3d
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 
 from floorplan_core.cli.main import run
-from floorplan_core.errors import Cancelled, OutputError
+from floorplan_core.errors import Cancelled, OutputError, UsageError
 from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.simulation import (
     SENSORS,
@@ -253,3 +254,11 @@ def test_command_refuses_wrong_values(
     assert run(["simulate", "--out", str(tmp_path / "out"), *words]) == 2
     assert capsys.readouterr().err.startswith("floorcast: ")
     assert not (tmp_path / "out").exists()
+
+
+def test_without_open3d_one_sentence_says_so(monkeypatch):
+    from floorplan_core.open3d_import import load_open3d
+
+    monkeypatch.setitem(sys.modules, "open3d", None)
+    with pytest.raises(UsageError, match="needs Open3D, which is not installed"):
+        load_open3d()
