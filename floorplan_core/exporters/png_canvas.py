@@ -26,6 +26,8 @@ Colour = tuple[int, int, int]
 Bounds = tuple[float, float, float, float]
 
 LONG_SIDE = 1600  # pixels
+# Lines and text have a width in pixels: a site of more than 130 m would be nothing else at that size.
+LEAST_SCALE, LARGEST = 12.0, 8000  # pixels a metre; pixels on a side at most
 BORDER = 1.0  # metres around the plan
 ROW = 44  # pixels: height of a row of the strip under the plan
 AIR = 3  # pixels around names: hatching leaves them free
@@ -84,11 +86,12 @@ class View:
         return inside
 
 
-def fit_view(bounds: Bounds, long_side: int = LONG_SIDE) -> View:
-    """The view of ``bounds`` with a border, ``long_side`` pixels on its longer side."""
+def fit_view(bounds: Bounds, long_side: int | None = None) -> View:
+    """The view of ``bounds`` with a border; its longer side has ``long_side`` pixels, or what can be read."""
     x0, y0, x1, y1 = bounds
     w, h = x1 - x0 + 2 * BORDER, y1 - y0 + 2 * BORDER
-    scale = long_side / max(w, h)
+    usual = max(LONG_SIDE, min(LEAST_SCALE * max(w, h), LARGEST))
+    scale = (long_side or usual) / max(w, h)
     return View(x0 - BORDER, y0 - BORDER, scale, max(1, round(w * scale)), max(1, round(h * scale)))
 
 

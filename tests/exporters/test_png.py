@@ -15,7 +15,7 @@ from floorplan_core.errors import UsageError
 from floorplan_core.exporters import png
 from floorplan_core.exporters.filmstrip import filmstrip_image, filmstrip_png
 from floorplan_core.exporters.placement import Line, Placed
-from floorplan_core.exporters.png_canvas import LONG_SIDE, View, draw_block, fit_view
+from floorplan_core.exporters.png_canvas import LARGEST, LEAST_SCALE, LONG_SIDE, View, draw_block, fit_view
 from floorplan_core.exporters.walls import poche
 from floorplan_core.model import FREE, FloorPlan
 from tests.factories import l_corridor, office, small_flat
@@ -47,6 +47,13 @@ def test_size_and_same_bytes(exporter: Any, make: Any, tmp_path: Path) -> None:
     with Image.open(tmp_path / "a.part") as image:
         assert image.format == "PNG"
         assert max(image.size[0], image.size[1] - fit_view(make().bounds).strip) == LONG_SIDE
+
+
+def test_a_large_site_gets_a_larger_picture() -> None:
+    """At 1600 pixels 300 m would be lines and numbers only, whose width is in pixels."""
+    assert fit_view((0, 0, 300, 200)).width == round(302 * LEAST_SCALE)
+    assert fit_view((0, 0, 790, 200)).width == LARGEST
+    assert fit_view((0, 0, 300, 200), LONG_SIDE).width == LONG_SIDE
 
 
 def test_occupancy_colours(plan: FloorPlan, view: View) -> None:
