@@ -60,6 +60,7 @@ EXTENT = Typical(20.0, 1.3, 8.0)  # longer side of the plan
 SENSOR = Typical(1.1, 0.5, 2.5)  # of the sensor above the floor
 SPEED = Typical(0.5, 0.9, 1.5)  # metres a second of whoever carries it
 PRIOR = {"m": 0.0, "mm": -1.0, "cm": -1.5, "ft": -2.5}  # logarithms: how often files come in each unit
+UNLIKELY = -3.5  # the same of a unit that is never guessed, only believed: the US survey foot
 # Logarithm of how much likelier a file is in the unit that its format fixes: no hall or site costs metres
 # this much; a building of millimetres written as metres (a storey of 3 km) costs them 20.
 FORMAT_WEIGHT = 12.0
@@ -82,7 +83,7 @@ def guess_axes(
     ``usual`` is the unit that the format fixes: believed unless no building is of that size.
     """
     layers = [find_layers(points[:, axis]) for axis in range(3)]
-    units = tuple(PRIOR) if unit == "auto" else (unit,)
+    units = (*PRIOR, *({usual} - {"auto", *PRIOR})) if unit == "auto" else (unit,)
     sizes = [guess_unit(layers, None, axis, usual, units)[1] for axis in "xyz"]
     up_guess = guess_up(points, layers, trajectory, sizes) if up == "auto" else up
     unit_guess = guess_unit(layers, trajectory, up_guess, usual, units)[0]
@@ -146,7 +147,7 @@ def guess_unit(
         size = METRES_PER_UNIT[unit]
         vertical = STOREY.score(storey * size) if storey else HEIGHT.score(tall * size)
         rest = EXTENT.score(plan * size) + SENSOR.score(sensor * size) + SPEED.score(speed * size)
-        return PRIOR[unit] + vertical + rest + (FORMAT_WEIGHT if unit == usual else 0.0)
+        return PRIOR.get(unit, UNLIKELY) + vertical + rest + (FORMAT_WEIGHT if unit == usual else 0.0)
 
     best = max(units, key=score)
     return best, score(best)
