@@ -6,6 +6,7 @@ of robots hold the scans of a lidar, a message each, and the transforms that pla
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -121,10 +122,11 @@ def _write_pts(path: Path, count: int) -> None:
 
 
 def _write_ptx(path: Path, count: int) -> None:
-    """One scan, a column of all of its points, whose sensor stood at its origin."""
-    unit = "1 0 0\n0 1 0\n0 0 1\n"
-    head = f"{count}\n1\n0 0 0\n{unit}" + "".join(f"{row} 0\n" for row in unit.splitlines()) + "0 0 0 1\n"
-    _write_lines(path, head, "%.4f %.4f %.4f 0.5\n", count)
+    """One scan of columns of at most 1000 points, whose sensor stood at its origin."""
+    rows = math.gcd(count, 1000)
+    unit = ("1 0 0", "0 1 0", "0 0 1")
+    head = [f"{count // rows}", f"{rows}", "0 0 0", *unit, *(f"{row} 0" for row in unit), "0 0 0 1", ""]
+    _write_lines(path, "\n".join(head), "%.4f %.4f %.4f 0.5\n", count)
 
 
 def _write_lines(path: Path, head: str, line: str, count: int) -> None:
