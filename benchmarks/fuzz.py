@@ -258,13 +258,17 @@ def _too_slow(*_: object) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Every format in a process of its own; 1 where anything bad was seen."""
+    """Every format in a process of its own; 1 where anything bad was seen, 2 for wrong use."""
     if arguments[:1] == ["--one"]:
         print(json.dumps(fuzz(arguments[1])))
         return 0
+    formats = list(writers())
+    if unknown := [kind for kind in arguments if kind not in formats]:
+        print(f"There is no format {unknown[0]}; choose from: {', '.join(formats)}.", file=sys.stderr)
+        return 2
     bad = 0
     print(f"{'format':<24}{'versions':>9}{'refused':>9}{'MB more':>9}{'slowest':>9}  what was bad")
-    for kind in arguments or writers():
+    for kind in arguments or formats:
         command = [sys.executable, "-m", "benchmarks.fuzz", "--one", kind]
         done = subprocess.run(command, capture_output=True, text=True, timeout=WHOLE_RUN, check=False)
         if done.returncode:
