@@ -15,6 +15,7 @@ from floorplan_core.observer import Observer
 from floorplan_core.readers import open_survey
 from floorplan_core.replay import Interval, intervals
 from tests.cli.small_survey import write_survey
+from tests.readers.reader_clouds import Remembering
 
 
 def scan_files(folder: Path) -> tuple[dict[str, bytes], list[str]]:
@@ -83,20 +84,11 @@ def test_scans_come_as_soon_as_file_and_pose_are_whole(tmp_path: Path) -> None:
     assert seen == [12, 8, 4, 0]  # of 16 pieces: as soon as the line of its pose is whole
 
 
-class Warned(Observer):
-    def __init__(self) -> None:
-        super().__init__()
-        self.warnings: list[str] = []
-
-    def warning(self, text: str) -> None:
-        self.warnings.append(text)
-
-
 def test_scans_that_are_deleted_or_damaged_end_no_run(tmp_path: Path) -> None:
     """A robot that keeps the last scans only; the others keep their rows of the trajectory."""
     files, lines = scan_files(tmp_path / "survey")
     robot = Robot(tmp_path / "scans", files, lines)
-    names, seen = sorted(files), Warned()
+    names, seen = sorted(files), Remembering()
 
     def wait(seconds: float) -> None:
         robot.wait(seconds)

@@ -49,27 +49,29 @@ class PredictedLabelImageExporter(LabelImageExporter):
 
 def region_labels(plan: FloorPlan) -> NDArray[np.int32]:
     """(ny, nx) place of the region that holds a cell's centre, from 1; 0: none. Row 0 is the lowest y."""
-    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
-
     raster = plan.raster or world_raster(plan)
     labels = np.zeros(raster.shape, dtype=np.int32)
     for number, region in enumerate(plan.regions, start=1):
-        cells = shapely.transform(region.polygon, lambda xy: raster.from_world(plan.to_world(xy)))
-        window, inside = polygon_window(cells, np.zeros(2), 1.0, raster.shape)
+        window, inside = _window(region.polygon, plan, raster)
         labels[window][inside] = number
     return labels
 
 
 def cells_in(area: Any, plan: FloorPlan, raster: MapRaster) -> NDArray[np.bool_]:
     """(ny, nx) cells whose centre lies in ``area`` (manhattan frame)."""
-    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
-
     mask = np.zeros(raster.shape, dtype=bool)
     for part in shapely.get_parts(area).tolist():
-        cells = shapely.transform(part, lambda xy: raster.from_world(plan.to_world(xy)))
-        window, inside = polygon_window(cells, np.zeros(2), 1.0, raster.shape)
+        window, inside = _window(part, plan, raster)
         mask[window] |= inside
     return mask
+
+
+def _window(polygon: Any, plan: FloorPlan, raster: MapRaster) -> tuple[Any, NDArray[np.bool_]]:
+    """The part of a raster around a polygon (manhattan frame), and which of its cells lie in it."""
+    from floorplan_core.geometry.raster import polygon_window  # kernels: not for finding the exporter
+
+    cells = shapely.transform(polygon, lambda xy: raster.from_world(plan.to_world(xy)))
+    return polygon_window(cells, np.zeros(2), 1.0, raster.shape)
 
 
 def world_raster(plan: FloorPlan) -> MapRaster:
