@@ -46,9 +46,15 @@ def interval_numbers(
 
 
 def path_lengths(trajectory: Trajectory) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """(M,) metres of path from the first pose to each."""
-    steps = np.linalg.norm(np.diff(trajectory.origins, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    """(M,) metres of path from the first pose to each; of several sensors that of the main one so far."""
+    path = trajectory.of_main_sensor()
+    steps = np.linalg.norm(np.diff(path.origins, axis=0), axis=1)
+    lengths = np.concatenate([[0.0], np.cumsum(steps)])
+    if trajectory.sensor is None:
+        return lengths
+    # What came later must not change a length that was told: drift correction cuts a growing path by them.
+    so_far = np.cumsum(trajectory.sensor == 0)
+    return np.asarray(lengths[np.maximum(so_far - 1, 0)])
 
 
 def _trajectory(reconstruction: Reconstruction) -> Trajectory:

@@ -75,6 +75,34 @@ class FrameTree:
         chain = self.chain(frame)
         return any(self.edges[f].moves for f in chain[:-1]) or (len(chain) > 1 and chain[-1] in WORLD_FRAMES)
 
+    def between(self, one: str, other: str) -> Float | None:
+        """(4, 4) T_one_other as it was first; None where no transforms join them."""
+        meeting = self._meeting(one, other)
+        if meeting is None:
+            return None
+        up, down = (self._first(frame, meeting) for frame in (one, other))
+        return np.asarray(np.linalg.inv(up) @ down)
+
+    def apart(self, one: str, other: str) -> bool:
+        """True where nothing joins two frames, or something moves between them."""
+        meeting = self._meeting(one, other)
+        if meeting is None:
+            return True
+        ways = (self.chain(frame) for frame in (one, other))
+        return any(self.edges[f].moves for way in ways for f in way[: way.index(meeting)])
+
+    def _meeting(self, one: str, other: str) -> str | None:
+        """The first frame that is above both, or one of them."""
+        above = self.chain(other)
+        return next((frame for frame in self.chain(one) if frame in above), None)
+
+    def _first(self, frame: str, above: str) -> Float:
+        """(4, 4) T_above_frame as it was first."""
+        chain, total = self.chain(frame), np.eye(4)
+        for child in chain[: chain.index(above)]:
+            total = matrices(self.edges[child].poses[:1])[0] @ total
+        return total
+
     def poses(self, frame: str, times: Float) -> tuple[Float, NDArray[np.bool_]]:
         """(N, 4, 4) T_root_frame at (N,) ``times``, and where all of the chain is known."""
         total, known = np.tile(np.eye(4), (len(times), 1, 1)), np.full(len(times), True)

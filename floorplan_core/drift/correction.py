@@ -74,7 +74,7 @@ def corrected(survey: Reconstruction, config: Config, observer: Observer) -> Rec
     return replace(
         survey,
         chunks=lambda: _moved_chunks(survey, moves),
-        trajectory=Trajectory(trajectory.stamps, moves @ trajectory.T_world_sensor),
+        trajectory=replace(trajectory, T_world_sensor=moves @ trajectory.T_world_sensor),
         assumptions=(*survey.assumptions, note),
     )
 

@@ -114,7 +114,7 @@ class CorrectingPlanner:
         if not poses:
             return
         before = self._given_path()
-        path = Trajectory(before.stamps, np.array(poses))
+        path = replace(before, T_world_sensor=np.array(poses))
         moves = path.T_world_sensor @ np.linalg.inv(before.T_world_sensor)
         kept = [self._kept[k].all() for k in sorted(self._kept)]
         self._kept, self._patches, self._trajectory = {}, {}, path
@@ -156,7 +156,9 @@ class CorrectingPlanner:
     def _given_path(self) -> Trajectory:
         assert self._trajectory is not None  # of integrate_chunk
         given = self._trajectory
-        return Trajectory(given.stamps[: self._rows], given.T_world_sensor[: self._rows])
+        rows = slice(self._rows)
+        sensor = None if given.sensor is None else given.sensor[rows]
+        return Trajectory(given.stamps[rows], given.T_world_sensor[rows], sensor)
 
     def _planner(self) -> FloorPlanner:
         """The points so far, where the corrected path puts them."""
@@ -187,7 +189,7 @@ class CorrectingPlanner:
         )
         self._moves = scan_moves(correction, keyframes, path, rotation)
         self.observer.stage_finished("drift", time.perf_counter() - began)
-        return Trajectory(path.stamps, self._moves @ path.T_world_sensor)
+        return replace(path, T_world_sensor=self._moves @ path.T_world_sensor)
 
     def _patches_of(self, k: int, origin: Float, rotation: Float) -> CellNormals:
         """What keyframe ``k`` saw, from its origin, in the axes of the frame."""

@@ -13,10 +13,13 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Trajectory:
-    """The sensor's path. Row ``i`` is the pose of scan ``i``."""
+    """The sensor's path. Row ``i`` is the pose of scan ``i``; those of several sensors are mixed in time."""
 
     stamps: Float  # (M,) seconds, not decreasing
     T_world_sensor: Float  # (M, 4, 4) sensor to local frame (metres, z up)
+    sensor: NDArray[np.int32] | None = (
+        None  # (M,) of several sensors of one robot, 0 the main one; None: there is one
+    )
 
     def __len__(self) -> int:
         return len(self.stamps)
@@ -25,6 +28,13 @@ class Trajectory:
     def origins(self) -> Float:
         """(M, 3) sensor positions, local frame, metres."""
         return self.T_world_sensor[:, :3, 3]
+
+    def of_main_sensor(self) -> Trajectory:
+        """The rows of the main sensor only: from one sensor to another nothing moves."""
+        if self.sensor is None:
+            return self
+        rows = self.sensor == 0
+        return Trajectory(self.stamps[rows], self.T_world_sensor[rows])
 
 
 @dataclass(frozen=True)

@@ -223,8 +223,9 @@ def _sensor_height(layers: Layers, along: Float, up: str) -> float:
 
 def _speed(trajectory: Trajectory) -> float:
     """Median of distance over time between rows, file units a second; 0 where it cannot be told."""
-    seconds = np.diff(trajectory.stamps)
-    moved = np.linalg.norm(np.diff(trajectory.origins, axis=0), axis=1)
+    path = trajectory.of_main_sensor()
+    seconds = np.diff(path.stamps)
+    moved = np.linalg.norm(np.diff(path.origins, axis=0), axis=1)
     good = (seconds > 0) & (moved > 0)
     return float(np.median(moved[good] / seconds[good])) if good.any() else 0.0
 

@@ -125,7 +125,7 @@ def _with_paths(
     moves = [s.local_frame.shift - origin for s in surveys]
     if shared_path:
         return tuple(_Part(s, m, 0) for s, m in zip(surveys, moves, strict=True)), surveys[0].trajectory
-    parts, stamps, poses, rows, end = [], [], [], 0, -np.inf
+    parts, stamps, poses, sensors, rows, end = [], [], [], [], 0, -np.inf
     for survey, move in zip(surveys, moves, strict=True):
         parts.append(_Part(survey, move, rows))
         if survey.trajectory is None or len(survey.trajectory) == 0:
@@ -138,8 +138,21 @@ def _with_paths(
         rows += len(seconds)
         stamps.append(seconds)
         poses.append(moved)
-    path = Trajectory(np.concatenate(stamps), np.concatenate(poses)) if stamps else None
+        sensors.append(survey.trajectory.sensor)
+    path = (
+        Trajectory(np.concatenate(stamps), np.concatenate(poses), _sensors(sensors, stamps))
+        if stamps
+        else None
+    )
     return tuple(parts), path
+
+
+def _sensors(sensors: list[NDArray[np.int32] | None], stamps: list[Float]) -> NDArray[np.int32] | None:
+    """(M,) the sensor of each pose of all files; None where each has one only."""
+    if all(sensor is None for sensor in sensors):
+        return None
+    pairs = zip(sensors, stamps, strict=True)
+    return np.concatenate([np.zeros(len(t), dtype=np.int32) if s is None else s for s, t in pairs])
 
 
 def _chunks(parts: tuple[_Part, ...], observer: Observer | None) -> Iterator[PointChunk]:

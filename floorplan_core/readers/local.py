@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -73,4 +74,4 @@ def local_trajectory(trajectory: Trajectory, frame: LocalFrame) -> Trajectory:
     poses = trajectory.T_world_sensor.copy()
     poses[:, :3, :3] = frame.rotation @ poses[:, :3, :3]
     poses[:, :3, 3] = frame.to_local(trajectory.origins)
-    return Trajectory(trajectory.stamps, poses)
+    return replace(trajectory, T_world_sensor=poses)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -61,7 +63,7 @@ def fit_unit(points: Float, trajectory: Trajectory, scale: float) -> Trajectory 
     """
     in_metres = trajectory.T_world_sensor.copy()
     in_metres[:, :3, 3] /= scale
-    converted = Trajectory(trajectory.stamps, in_metres)
+    converted = replace(trajectory, T_world_sensor=in_metres)
     if scale == 1.0 or not belongs(points, converted):
         return None
     shrunk = np.ptp(trajectory.origins, axis=0).max() < MIN_SPREAD * np.ptp(points, axis=0).max()

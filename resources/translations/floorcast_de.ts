@@ -1776,8 +1776,8 @@
    <translation>Zu wenig Speicher für diese Aufnahme.</translation>
   </message>
   <message>
-   <source>Not read: {0}; one topic is, choose it with --set input.topic=NAME.</source>
-   <translation>Nicht gelesen: {0}; gelesen wird ein Topic, zu wählen mit --set input.topic=NAME.</translation>
+   <source>Not read: {0}; --set input.topic=NAME,NAME reads the topics that it names.</source>
+   <translation>Nicht gelesen: {0}; --set input.topic=NAME,NAME liest die genannten Topics.</translation>
   </message>
   <message>
    <source>Not seen</source>
@@ -2220,8 +2220,8 @@
    <translation>Beenden</translation>
   </message>
   <message>
-   <source>ROS 1 and ROS 2 bags, MCAP: PointCloud2, LaserScan or depth images with TF or odometry</source>
-   <translation>ROS-1- und ROS-2-Bags, MCAP: PointCloud2, LaserScan oder Tiefenbilder mit TF oder Odometrie</translation>
+   <source>ROS 1 and ROS 2 bags, MCAP: PointCloud2, LaserScan or depth images of one or several sensors with TF or odometry</source>
+   <translation>ROS-1- und ROS-2-Bags, MCAP: PointCloud2, LaserScan oder Tiefenbilder eines oder mehrerer Sensoren mit TF oder Odometrie</translation>
   </message>
   <message>
    <source>ROS bag</source>
@@ -3344,6 +3344,10 @@
    <translation>Die Zeiten von {0} ({1} bis {2} s) und der Trajektorie ({3} bis {4} s) treffen sich nicht; die Trajektorie dieser Aufnahme angeben.</translation>
   </message>
   <message>
+   <source>The topic {0} of {1} cannot be read too: {2}.</source>
+   <translation>Das Topic {0} von {1} kann nicht mitgelesen werden: {2}.</translation>
+  </message>
+  <message>
    <source>The topic {0} of {1} holds no messages.</source>
    <translation>Das Topic {0} von {1} enthält keine Nachrichten.</translation>
   </message>
@@ -3592,12 +3596,16 @@
    <translation>Topic</translation>
   </message>
   <message>
-   <source>Topic of a ROS recording that holds the scans; empty: that with most clouds, else scans.</source>
-   <translation>Topic einer ROS-Aufzeichnung mit den Scans; leer: das mit den meisten Punktwolken, sonst Scans.</translation>
+   <source>Topics of a ROS recording that hold the scans, with commas between; empty: the clouds of all sensors, else their planar scans, else their depth images.</source>
+   <translation>Topics einer ROS-Aufzeichnung mit den Scans, durch Kommas getrennt; leer: die Punktwolken aller Sensoren, sonst ihre ebenen Scans, sonst ihre Tiefenbilder.</translation>
   </message>
   <message>
    <source>Trajectory</source>
    <translation>Weg</translation>
+  </message>
+  <message>
+   <source>Transforms join the frame {0} to {1}.</source>
+   <translation>Transformationen verbinden das System {0} mit {1}.</translation>
   </message>
   <message>
    <source>Transforms place the frame {0} in {1}.</source>
@@ -4416,12 +4424,24 @@
    <translation>sie verweist auf Teile von sich selbst (*name), was abgelehnt wird</translation>
   </message>
   <message>
+   <source>it sees what {0} does</source>
+   <translation>es sieht dasselbe wie {0}</translation>
+  </message>
+  <message>
    <source>it wrote no file</source>
    <translation>sie schrieb keine Datei</translation>
   </message>
   <message>
    <source>its checks are not a list</source>
    <translation>seine Kontrollmaße sind keine Liste</translation>
+  </message>
+  <message>
+   <source>its frame {0} is that of {1}</source>
+   <translation>sein System {0} ist das von {1}</translation>
+  </message>
+  <message>
+   <source>its frame {0} is the robot's, not a sensor's</source>
+   <translation>sein System {0} ist das des Roboters, nicht das eines Sensors</translation>
   </message>
   <message>
    <source>its image is no name of a file</source>
@@ -4510,6 +4530,10 @@
   <message>
    <source>no properties</source>
    <translation>keine Eigenschaften</translation>
+  </message>
+  <message>
+   <source>no transform joins its frame {0} to {1}</source>
+   <translation>keine Transformation verbindet sein System {0} mit {1}</translation>
   </message>
   <message>
    <source>none</source>
@@ -5182,6 +5206,10 @@
   <message>
    <source>{0} is empty.</source>
    <translation>{0} ist leer.</translation>
+  </message>
+  <message>
+   <source>{0} is in the frame {1} and may hold it</source>
+   <translation>{0} liegt im System {1} und enthält es vielleicht schon</translation>
   </message>
   <message>
    <source>{0} is named like a {1} file but holds {2}; it was read as that.</source>

@@ -273,7 +273,7 @@ def with_two_lidars(m):
 
 def test_topics_that_are_not_read_are_named(tmp_path):
     survey = opened(write_recording(tmp_path, "mcap", with_two_lidars))
-    assert sum("Not read: /rear/points; one topic is" in note for note in survey.assumptions) == 1
+    assert sum("Not read: /rear/points (its frame lidar is" in note for note in survey.assumptions) == 1
     alone = opened(write_recording(tmp_path, "bag", with_transforms))
     assert not any("Not read" in note for note in alone.assumptions)
 

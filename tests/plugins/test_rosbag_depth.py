@@ -25,8 +25,8 @@ def png_bytes(pixels):
 class DepthMessages:
     """Images and cameras of one ROS."""
 
-    def __init__(self, m: Messages):
-        self.m = m
+    def __init__(self, m: Messages, frame: str = "optical"):
+        self.m, self.frame = m, frame
 
     def info(self, seconds):
         t = self.m.t
@@ -36,7 +36,7 @@ class DepthMessages:
         )
         values = dict(zip(names, (np.zeros(5), k, np.eye(3).ravel(), np.zeros(12)), strict=True))
         return t["sensor_msgs/msg/CameraInfo"](
-            header=self.m.header(seconds, "optical"),
+            header=self.m.header(seconds, self.frame),
             height=HEIGHT,
             width=WIDTH,
             distortion_model="plumb_bob",
@@ -52,7 +52,7 @@ class DepthMessages:
         padded[:, : WIDTH * pixels.itemsize] = pixels.view(np.uint8)
         big, step = encoding == "16UC1", padded.shape[1]
         return self.m.t["sensor_msgs/msg/Image"](
-            self.m.header(seconds, "optical"), HEIGHT, WIDTH, encoding, int(big), step, padded.ravel()
+            self.m.header(seconds, self.frame), HEIGHT, WIDTH, encoding, int(big), step, padded.ravel()
         )
 
     def compressed(self, metres, seconds, encoding):
@@ -61,7 +61,7 @@ class DepthMessages:
         png = png_bytes(np.round(pixels).astype(np.uint16))
         data = struct.pack("<iff", 0, a, b) + png
         return self.m.t["sensor_msgs/msg/CompressedImage"](
-            self.m.header(seconds, "optical"),
+            self.m.header(seconds, self.frame),
             f"{encoding}; compressedDepth png",
             np.frombuffer(data, np.uint8),
         )
