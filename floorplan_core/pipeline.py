@@ -246,7 +246,10 @@ class FloorPlanner:
         self._make_room_for_plan(surfels, seen, own)
         given = surfels, self.map.rays, own, path, self.config.voxels
         many = self._is_one_of_many()
-        found = gather_storey(*given, self.storeys()[storey]) if many else gather_evidence(*given)
+        if many:
+            found = gather_storey(*given, self.storeys()[storey])
+        else:
+            found = gather_evidence(*given, lifted=self.map.planar)
         return replace(found, frame=frame)
 
     def _largest_of(self, storey: int, frame: ManhattanFrame) -> Evidence:

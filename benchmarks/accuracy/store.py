@@ -61,11 +61,12 @@ def load() -> list[Record]:
     return list(json.loads(RESULTS.read_text(encoding="utf-8"))["surveys"])
 
 
-def save(records: Sequence[Record]) -> None:
+def save(records: Sequence[Record], path: Path | None = None) -> None:
     """Keep the records, rounded so that a change of the last digit of a float is no change of the file."""
     rounded = [{k: round(v, 6) if isinstance(v, float) else v for k, v in r.items()} for r in records]
-    RESULTS.parent.mkdir(parents=True, exist_ok=True)
-    RESULTS.write_text(json.dumps({"surveys": rounded}, indent=1) + "\n", encoding="utf-8")
+    path = path or RESULTS
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps({"surveys": rounded}, indent=1) + "\n", encoding="utf-8")
 
 
 def worst_records(records: Sequence[Record], count: int = WORST) -> list[Record]:

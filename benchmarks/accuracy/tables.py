@@ -27,6 +27,15 @@ COLUMNS = (
     ("outside_percent", "out %", 1),
     ("seconds", "s", 1),
 )
+# Columns of the tables of what hurts: title, key (none: how many surveys).
+EFFECTS = {
+    "surveys": "",
+    "dimension m": "dimension_m",
+    "F1": "f1_entered",
+    "IoU": "iou_entered",
+    "door P": "door_precision",
+    "door R": "door_recall",
+}
 Table = tuple[list[str], list[list[str]]]  # header, rows
 
 
@@ -130,13 +139,17 @@ def exploration(records: Sequence[Record]) -> Table:
 
 def factors(records: Sequence[Record]) -> Table:
     """Mean results by the level of each factor: what hurts most."""
-    keys = ("dimension_m", "f1_entered", "iou_entered", "door_precision", "door_recall")
     rows = []
     for factor in ("sensor", "furniture", "style", "noise", "drift"):
         for level in sorted({r["factors"].get(factor, "") for r in records} - {""}):
             group = [r for r in records if r["factors"].get(factor) == level]
-            rows.append([f"{factor}: {level}", str(len(group)), *(number(mean(group, k), 3) for k in keys)])
-    return ["factor", "surveys", "dimension m", "F1", "IoU", "door P", "door R"], rows
+            rows.append([f"{factor}: {level}", *effects(group)])
+    return ["factor", *EFFECTS], rows
+
+
+def effects(group: Sequence[Record]) -> list[str]:
+    """How many surveys, and the means that :data:`EFFECTS` names."""
+    return [str(len(group)), *(number(mean(group, key), 3) for key in EFFECTS.values() if key)]
 
 
 def reliability(records: Sequence[Record]) -> Table:

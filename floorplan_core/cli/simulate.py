@@ -32,7 +32,7 @@ def simulate(
     seed: Annotated[int, typer.Option(help="Seed of all random numbers; the same seed, the same bytes.")] = 0,
     style: Annotated[str, typer.Option(help="straight, l, t, ring, grid or flat.")] = "straight",
     rooms: Annotated[int, typer.Option(help="Number of rooms, roughly.")] = 12,
-    sensor: Annotated[str, typer.Option(help="lidar, camera or station.")] = "lidar",
+    sensor: Annotated[str, typer.Option(help="lidar, camera, station, tilted or planar.")] = "lidar",
     furniture: Annotated[str, typer.Option(help="none, normal or heavy.")] = "normal",
     explore: Annotated[float, typer.Option(help="Share of the reachable rooms that are entered.")] = 1.0,
     noise: Annotated[

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 _FLAT = 0.02  # m, spread of heights within which a survey is planar
 _ENOUGH = 50  # points
 _BELOW, _ABOVE, _STEP = -0.9, 1.5, 0.1  # m, the column around the plane of the laser, taken to be 1 m high
+_HEIGHTS = np.arange(_BELOW, _ABOVE, _STEP)
+LEVELS = len(_HEIGHTS)  # points that each return becomes
 
 
 def is_planar(points: NDArray[Any]) -> bool:
@@ -26,9 +28,8 @@ def lift(
     points: NDArray[Any], scan: NDArray[np.int32], origins: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
     """Points, the rows of their origins, and origins, repeated at every height of the column."""
-    heights = np.arange(_BELOW, _ABOVE, _STEP)
-    up = np.column_stack([np.zeros((len(heights), 2)), heights])
+    up = np.column_stack([np.zeros((LEVELS, 2)), _HEIGHTS])
     lifted = (points[None].astype(np.float64) + up[:, None]).reshape(-1, 3)
     raised = (origins[None] + up[:, None]).reshape(-1, 3)
-    rows = (scan[None] + np.arange(len(heights), dtype=np.int32)[:, None] * len(origins)).ravel()
-    return lifted, np.where(np.tile(scan, len(heights)) < 0, -1, rows).astype(np.int32), raised
+    rows = (scan[None] + np.arange(LEVELS, dtype=np.int32)[:, None] * len(origins)).ravel()
+    return lifted, np.where(np.tile(scan, LEVELS) < 0, -1, rows).astype(np.int32), raised

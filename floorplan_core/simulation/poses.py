@@ -14,7 +14,6 @@ Float = NDArray[np.float64]
 
 TURN_RATE = 45.0  # degrees per second while looking around
 PAN_PERIOD = 9.0  # s of one panning cycle
-WOBBLE = 1.0  # degrees of roll and pitch while walking
 STATION_STEP = 5.0  # m between tripod stations in the circulation
 DRIFT_SCALE = 8.0  # m of path over which the drift changes
 HEADING_SPAN = 0.8  # m of path that the walking direction is averaged over
@@ -56,9 +55,10 @@ def sensor_poses(walk: Walk, spec: SurveySpec, rng: np.random.Generator) -> Pose
         stamps, xy, heading, wobble = _stations(walk, sensor, rng)
     else:
         stamps, xy, heading = _moving(walk, sensor)
-        wobble = np.deg2rad(WOBBLE) * _slow_noise(len(stamps), 2, 6, rng)
+        wobble = np.deg2rad(sensor.wobble) * _slow_noise(len(stamps), 2, 6, rng)
     T = np.tile(np.eye(4), (len(stamps), 1, 1))
     T[:, :3, :3] = rotation(2, heading) @ rotation(1, wobble[:, 0]) @ rotation(0, wobble[:, 1])
+    T[:, :3, :3] @= rotation(1, np.deg2rad(sensor.tilt))
     T[:, :2, 3], T[:, 2, 3] = xy, sensor.height
     return Poses(stamps, T, _drift(T, spec, rng))
 

@@ -13,7 +13,8 @@ from floorplan_core.errors import UsageError
 
 STYLES = ("straight", "l", "t", "ring", "grid", "flat")
 FURNITURE = ("none", "normal", "heavy")
-SENSORS = ("camera", "lidar", "station")
+KINDS = ("camera", "lidar", "station")  # how a sensor's rays lie, and how it is carried
+SENSORS = ("camera", "lidar", "station", "tilted", "planar")  # presets
 
 
 def bounded(default: float | None, low: float, high: float, text: str) -> Any:
@@ -78,7 +79,7 @@ class BuildingSpec:
 class SensorSpec:
     """A range sensor and its errors; start from :func:`sensor_preset`."""
 
-    kind: str = chosen("lidar", SENSORS, "sensor")
+    kind: str = chosen("lidar", KINDS, "sensor")
     columns: int = bounded(450, 8, 4096, "rays along the horizon")
     rows: int = bounded(32, 1, 4096, "rays along the vertical")
     horizontal_fov: float = bounded(360.0, 10, 360, "field of view, degrees")
@@ -89,6 +90,8 @@ class SensorSpec:
     height: float = bounded(1.2, 0.2, 2.2, "of the sensor above the floor, m")
     interval: float = bounded(0.5, 0.02, 600, "time between scans, s")
     speed: float = bounded(0.7, 0.05, 3, "of the walk, m/s")
+    tilt: float = bounded(0.0, -90, 90, "of the sensor on its carrier, nose down, degrees")
+    wobble: float = bounded(1.0, 0, 10, "roll and pitch while walking, standard deviation, degrees")
     pan: float = bounded(0.0, 0, 90, "amplitude of the slow panning about the walking direction, degrees")
     look_around: float = bounded(0.0, 0, 360, "turn at every waypoint in a room, degrees")
     noise: float = bounded(0.015, 0, 0.2, "standard deviation of a range, m")
@@ -139,6 +142,12 @@ _PRESETS = {
         interval=180.0,
         noise=0.003,
         dropout=0.01,
+    ),
+    # Sixteen rings on a mast, leaning forward: they sweep floor and ceiling, and cross walls at a slant.
+    "tilted": SensorSpec(columns=600, rows=16, lowest=-15.0, highest=15.0, tilt=30.0),
+    # The laser of a wheeled robot, which stays level: one ring, no heights.
+    "planar": SensorSpec(
+        columns=720, rows=1, lowest=-0.1, highest=0.0, min_range=0.1, height=0.4, interval=0.2, wobble=0.0
     ),
 }
 

@@ -27,6 +27,7 @@ from floorplan_core.geometry.ray_carving import MissMap
 from floorplan_core.geometry.surfel_map import SurfelMap
 from floorplan_core.model import ManhattanFrame
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.stray_returns import stray_returns
 
 Float = NDArray[np.float64]
 
@@ -42,14 +43,26 @@ LARGEST = 250_000_000  # cells of the fine grid: a site of 790 x 790 m
 
 
 def gather_evidence(
-    surfels: SurfelMap, misses: MissMap, frame: ManhattanFrame, path: Float, config: VoxelConfig
+    surfels: SurfelMap,
+    misses: MissMap,
+    frame: ManhattanFrame,
+    path: Float,
+    config: VoxelConfig,
+    lifted: bool = False,
 ) -> Evidence:
-    """Turn the maps into the manhattan frame; ``path`` is (M, 3) sensor positions, local frame."""
+    """Turn the maps into the manhattan frame.
+
+    :param path: (M, 3) sensor positions, local frame.
+    :param lifted: a planar scan was lifted to walls.
+    """
     viewpoints = bool(len(path))
     xyz, count, spread, view = surfels.turned(frame.rotation, -frame.floor_z)
     path_xy = frame.to_manhattan(path)[:, :2] if len(path) else np.zeros((0, 2))
     cell = config.size
     origin, shape = _grid(xyz, path_xy, cell)
+    if lifted and misses.blocks:
+        stays = ~stray_returns(xyz, count, misses, frame, (origin, cell, shape))
+        xyz, count, spread, view = xyz[stays], count[stays], spread[stays], view[stays]
     fine = cell / 2
     hits = surfels.columns(2 * shape[0], 2 * shape[1])
     _mark_hits(xyz, origin, fine, hits, 0.0 if misses.blocks > 0 else _FLOOR)

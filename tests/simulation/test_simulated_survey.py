@@ -33,11 +33,14 @@ COARSE = {
     "lidar": {"columns": 90, "rows": 10, "interval": 1.5},
     "camera": {"columns": 24, "rows": 18, "interval": 1.0},
     "station": {"columns": 120, "rows": 40},
+    "tilted": {"columns": 120, "rows": 8, "interval": 1.5},
+    "planar": {"interval": 1.0},
 }
 
 
 def small(style: str = "straight", kind: str = "lidar", **changes: object) -> SurveySpec:
-    sensor = {**COARSE[kind], **CLEAN, **{k: changes.pop(k) for k in list(changes) if k in CLEAN}}
+    of_sensor = {*CLEAN, "tilt"}
+    sensor = {**COARSE[kind], **CLEAN, **{k: changes.pop(k) for k in list(changes) if k in of_sensor}}
     spec = SurveySpec(BuildingSpec(style=style, rooms=4), sensor_preset(kind, **sensor), seed=1, thin=0.0)
     return replace(spec, **changes)
 
@@ -126,6 +129,23 @@ def test_glass_returns_lie_on_window_panes() -> None:
     off = distance_to_surfaces(survey)
     assert (off > 0.02).sum() > 20, "no pane was hit"
     assert distance_to_surfaces(survey, glass=True).max() < 2e-3
+
+
+def test_a_tilted_lidar_sees_more_of_the_ceiling_than_a_level_one() -> None:
+    high = {
+        tilt: (
+            in_building(survey := simulate_survey(small(kind="tilted", tilt=tilt)))[:, 2]
+            > survey.building.height - 0.01
+        ).mean()
+        for tilt in (0.0, 30.0)
+    }
+    assert high[30.0] > 2 * high[0.0]
+
+
+def test_a_planar_laser_stays_at_its_height() -> None:
+    survey = survey_of(small(kind="planar"))
+    assert np.ptp(survey.points[:, 2]) < 1e-6
+    assert survey.points[0, 2] == pytest.approx(sensor_preset("planar").height, abs=1e-6)
 
 
 @pytest.mark.parametrize("yaw", [-30.0, 72.5])
