@@ -22,7 +22,7 @@ from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.kernel_times import stopwatch
 from floorplan_core.layout import lay_out
 from floorplan_core.layout_islands import site_points
-from floorplan_core.layout_parts import add_parts, said_of_first
+from floorplan_core.layout_parts import add_parts, askew_of, said_of_first
 from floorplan_core.memory import fits, require_memory
 from floorplan_core.model import (
     Door,
@@ -150,7 +150,9 @@ class FloorPlanner:
             )
         else:
             made, wings = lay_out(evidence, config, stage, self.observer, say), ()
-        segments, planes, doors, grid, said = made.segments, made.planes, made.doors, made.grid, made.remarks
+        askew = stage.correct("askew", lambda: askew_of(parts, evidence, config), parts, evidence, config)
+        frame, said = replace(frame, askew=askew.share), made.remarks + Remarks(warnings=askew.warnings())
+        segments, planes, doors, grid = made.segments, made.planes, made.doors, made.grid
         regions, cover = made.regions, made.cover
         shown = (*segments, *(s for wing in wings for s in wing.segments))
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)

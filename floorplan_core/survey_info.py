@@ -19,13 +19,12 @@ from floorplan_core.model import ManhattanFrame, Reconstruction, Trajectory
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
-from floorplan_core.stages.manhattan_frame import other_direction
+from floorplan_core.stages.askew_walls import TOLD, walls_at_angles
 from floorplan_core.stages.storeys import find_storeys
 from floorplan_core.survey_map import SurveyMap
 
 Float = NDArray[np.float64]
 
-LEAST_SHARE = 0.08  # of the walls: a wing at another angle has more, clutter has less
 ENDS = (0.001, 0.999)  # quantiles between which the building lies: the rest may be ghosts
 
 
@@ -51,7 +50,7 @@ class SurveyInfo:
     topics: tuple[str, ...]
     frame: ManhattanFrame | None
     no_frame: str  # why there is none
-    other: tuple[float, float]  # radians from the frame and share of walls of the strongest other direction
+    other: tuple[float, float]  # of walls at other angles: radians from the frame of most, share of all walls
     storeys: tuple[Storey, ...]  # none where the survey is planar
     floor_shift: float  # metres to add to the heights of storeys to have them in the world frame
     planar: bool  # a scan in one plane: it has no heights
@@ -111,7 +110,7 @@ def describe(
         topics=survey.topics,
         frame=frame,
         no_frame=why,
-        other=_other(seen, frame, config),
+        other=_other(seen, frame, storeys, config),
         storeys=() if seen.planar else storeys,
         floor_shift=float(local.shift[2] + seen.own.centre[2]),
         planar=seen.planar,
@@ -153,17 +152,22 @@ def _directions(seen: SurveyMap, config: Config) -> tuple[ManhattanFrame | None,
     return frame, "", find_storeys(seen.surfels.surfels(), own, config.storeys)
 
 
-def _other(seen: SurveyMap, frame: ManhattanFrame | None, config: Config) -> tuple[float, float]:
-    if frame is None:
+def _other(
+    seen: SurveyMap, frame: ManhattanFrame | None, storeys: tuple[Storey, ...], config: Config
+) -> tuple[float, float]:
+    """Nothing where so little stands at other angles that the plan would not speak of it."""
+    if frame is None or not storeys:
         return 0.0, 0.0
     own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
-    return other_direction(seen.sample(), own, config.frame)
+    xyz = seen.surfels.surfels().centroid @ own.rotation.T
+    walls, turn = walls_at_angles(xyz, seen.surfels.size, [s.floor_z for s in storeys], config.frame)
+    return (turn, walls.share) if walls.area >= TOLD else (0.0, 0.0)
 
 
 def _other_facts(other: tuple[float, float]) -> dict[str, float] | None:
-    """None where so few walls share it that it is clutter."""
+    """None where there are none."""
     angle, share = other
-    if share < LEAST_SHARE:
+    if share <= 0.0:
         return None
     return {"from_frame_deg": round(float(np.degrees(angle)), 2), "share": round(share, 4)}
 

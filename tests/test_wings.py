@@ -17,7 +17,8 @@ from floorplan_core.model import FloorPlan
 from floorplan_core.pipeline import process
 from tests.box_world import LINTEL, Survey, rotation, stations, survey, two_rooms
 from tests.plan_invariants import assert_doors, assert_flags
-from tests.wing_world import TwoWings, WingWorld
+from tests.round_world import survey as round_survey
+from tests.wing_world import LongWorld, TwoWings, WingWorld
 
 YAW = 10.0
 
@@ -122,7 +123,34 @@ def test_two_wings_at_two_angles():
     assert_flags(plan)
 
 
+@pytest.mark.parametrize(("degrees", "noise"), [(30.0, 0.008), (45.0, 0.03)])
+def test_a_small_wing_of_a_long_building(degrees, noise):
+    """A tenth of the floor and of the points; thick noise leaves few planar patches of the usual width."""
+    world = LongWorld(degrees)
+    scans = world.survey(rays=(150, 46), noise=noise)
+    wing = scans.points[scans.scan_id >= len(world.places()[0])]
+    assert len(wing) < 0.1 * len(scans.points)
+    plan = process(scans.reconstruction())
+    assert [abs(np.degrees(w.turn)) for w in plan.wings] == pytest.approx([degrees], abs=0.5)
+    found = outlines(plan, scans)
+    assert len(found) == 13
+    assert min(fits(found, room) for room in world.rooms()) > 0.95
+    assert plan.frame.askew < 0.01
+
+
+@pytest.mark.parametrize("viewpoints", [True, False], ids=["viewpoints", "plain"])
+def test_walls_that_no_rooms_follow_are_reported(viewpoints):
+    """A round atrium: 70 of 90 degrees of its wall are neither along the axes nor one direction."""
+    plan = process(round_survey(rays=(240, 60)).reconstruction(trajectory=viewpoints))
+    assert plan.wings == ()
+    written = json.loads(geojson_text(plan))["floorcast"]["askew_share"]
+    assert 0.12 < written < 0.3
+    assert any(f"({written:.1%} of all) stand at other angles" in text for text in plan.warnings)
+
+
 def test_a_building_without_a_wing_has_none(world):
     flat = survey(two_rooms((2, 2.9, LINTEL)), [*stations(4, 5), *stations(4, 5, 4.1)], rays=(120, 40))
     turned = replace(flat, points=flat.points @ rotation(30).T)
-    assert process(turned.reconstruction(trajectory=False)).wings == ()
+    plan = process(turned.reconstruction(trajectory=False))
+    assert plan.wings == () and plan.frame.askew == 0.0
+    assert not any("other angles" in text for text in plan.warnings)

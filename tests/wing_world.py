@@ -1,4 +1,7 @@
-"""A building of two rooms with a wing at another angle: a room and a chamber behind it, entered by a door."""
+"""Buildings with a wing at another angle, a room and a chamber behind it, entered by a door.
+
+Of two rooms, of ten along a corridor, or with a second wing.
+"""
 
 from __future__ import annotations
 
@@ -24,20 +27,25 @@ def building() -> list[Box]:
 class WingWorld:
     """The building and the wing, whose own axes are turned by ``degrees`` about ``corner``."""
 
+    hall = (6.0, 5.0)  # m, of the wing's first room
+    chamber = 3.0  # m, depth of the room behind it
+
     def __init__(self, degrees: float = 45.0) -> None:
         self.turn = rotation(degrees)
         # The wing's westmost corner lies 1.6 m inside the building, behind the door.
-        self.corner = np.array([EAST + 0.2 - 1.6, 2.5, 0.0]) - self.turn @ np.array([0.0, 5.0, 0.0])
+        self.corner = np.array([EAST + 0.2 - 1.6, 2.5, 0.0]) - self.turn @ np.array([0.0, self.hall[1], 0.0])
         self.wing = self._pieces()
+        self.building = building()
 
     def _pieces(self) -> list[Box]:
-        """Walls of a hall of 6 x 5 m and of a chamber behind it, without what would be in the building."""
+        """Walls of the hall and of the chamber behind it, without what would be in the building."""
+        (w, d), far = self.hall, self._far
         walls = [
-            *wall(0, -0.2, 0, -0.2, 5.2),
-            *wall(0, 6, 6.1, 0, 5, (3.6, 4.5, LINTEL)),
-            *wall(0, 9.1, 9.3, -0.2, 5.2),
-            *wall(1, -0.2, 0, 0, 9.1),
-            *wall(1, 5, 5.2, 0, 9.1),
+            *wall(0, -0.2, 0, -0.2, d + 0.2),
+            *wall(0, w, w + 0.1, 0, d, (d - 1.4, d - 0.5, LINTEL)),
+            *wall(0, far, far + 0.2, -0.2, d + 0.2),
+            *wall(1, -0.2, 0, 0, far),
+            *wall(1, d, d + 0.2, 0, far),
         ]
         pieces = [p for b in walls for p in (_chopped(b) if b[0] <= 0 else [b])]
         outside = [
@@ -45,7 +53,11 @@ class WingWorld:
             for p in pieces
             if self.world(np.array([[(p[0] + p[3]) / 2, (p[1] + p[4]) / 2, 0]]))[0, 0] > EAST + 0.1
         ]
-        return outside + slabs(-0.2, -0.2, 9.3, 5.2)
+        return outside + slabs(-0.2, -0.2, far + 0.2, d + 0.2)
+
+    @property
+    def _far(self) -> float:
+        return self.hall[0] + 0.1 + self.chamber
 
     def world(self, xyz: np.ndarray) -> np.ndarray:
         """Axes of the wing to those of the building."""
@@ -59,22 +71,28 @@ class WingWorld:
                 shapely.box(*box), lambda xy: self.world(np.column_stack([xy, np.zeros(len(xy))]))[:, :2]
             )
 
-        hall = turned(0, 0, 6, 5).difference(shapely.box(-50, -50, EAST + 0.2, 50))
-        return [shapely.box(0, 0, 4, 5), shapely.box(4.1, 0, EAST, 5), hall, turned(6.1, 0, 9.1, 5)]
+        w, d = self.hall
+        hall = turned(0, 0, w, d).difference(shapely.box(-50, -50, EAST + 0.2, 50))
+        return [*self.straight_rooms(), hall, turned(w + 0.1, 0, self._far, d)]
 
-    def survey(self, yaw: float = 0.0, rays: tuple[int, int] = (200, 60)) -> Survey:
+    def straight_rooms(self) -> list[shapely.Polygon]:
+        """The floors of the building."""
+        return [shapely.box(0, 0, 4, 5), shapely.box(4.1, 0, EAST, 5)]
+
+    def places(self) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+        """Where the scanner stood: in the building, and in the axes of the wing."""
+        wing = [(1.9, 2.3), (3.0, 1.2), (4.4, 3.6), (5.7, 4.05), (7.5, 1.6), (7.4, 3.8)]
+        return [(1, 1.5), (3, 3.5), (3.8, 1.0), (5.2, 3.5), (6.8, 1.2), (7.6, 2.5), (EAST + 0.1, 2.5)], wing
+
+    def survey(self, yaw: float = 0.0, rays: tuple[int, int] = (200, 60), noise: float = 0.008) -> Survey:
         """Scans from a walk through all rooms and doors; the world is turned by ``yaw`` degrees."""
-        inside = [(1, 1.5), (3, 3.5), (3.8, 1.0), (5.2, 3.5), (6.8, 1.2), (7.6, 2.5)]
-        wing = self.world(
-            np.array(
-                [(1.9, 2.3, 0), (3.0, 1.2, 0), (4.4, 3.6, 0), (5.7, 4.05, 0), (7.5, 1.6, 0), (7.4, 3.8, 0.0)]
-            )
-        )
-        places = [*inside, (EAST + 0.1, 2.5), *wing[:, :2].tolist()]
+        inside, own = self.places()
+        wing = self.world(np.column_stack([own, np.zeros(len(own))]))
+        places = [*inside, *wing[:, :2].tolist()]
         rng = np.random.default_rng(2)
         out, ids, poses, world = [], [], [], rotation(yaw)
         for k, place in enumerate(places):
-            points = self._scan(np.array([*place, EYE]), rng, rays)
+            points = self._scan(np.array([*place, EYE]), rng, rays, noise)
             pose = np.eye(4)
             pose[:3, :3], pose[:3, 3] = world, world @ np.array([*place, EYE])
             out.append((points + np.array([*place, EYE])) @ world.T)
@@ -82,14 +100,50 @@ class WingWorld:
             poses.append(pose)
         return Survey(np.concatenate(out), np.concatenate(ids), np.array(poses), world)
 
-    def _scan(self, origin: np.ndarray, rng: np.random.Generator, rays: tuple[int, int]) -> np.ndarray:
+    def _scan(
+        self, origin: np.ndarray, rng: np.random.Generator, rays: tuple[int, int], noise: float
+    ) -> np.ndarray:
         directions = fan(rays, rng)
         distance = np.minimum(
-            cast(building(), origin, directions),
+            cast(self.building, origin, directions),
             cast(self.wing, (origin - self.corner) @ self.turn, directions @ self.turn),
         )
         hit = np.isfinite(distance) & (distance < 30)
-        return directions[hit] * (distance[hit] + rng.normal(0, 0.008, int(hit.sum())))[:, None]
+        return directions[hit] * (distance[hit] + rng.normal(0, noise, int(hit.sum())))[:, None]
+
+
+class LongWorld(WingWorld):
+    """Five rooms of 4 x 5 m on each side of a corridor, and a small wing at its end."""
+
+    hall = (4.0, 4.0)
+
+    def __init__(self, degrees: float) -> None:
+        super().__init__(degrees)
+        self.west = [EAST - 4 - 4.1 * k for k in range(5)]
+        doors = [(x + 0.5, x + 1.4, LINTEL) for x in self.west]
+        first = self.west[-1]
+        self.building = [
+            *slabs(first - 0.2, -3.8, EAST + 0.2, 8.8),
+            *wall(0, first - 0.2, first, -3.8, 8.8),
+            *wall(0, EAST, EAST + 0.2, -3.8, 8.8, DOOR),
+            *wall(1, -3.8, -3.6, first, EAST),
+            *wall(1, 8.6, 8.8, first, EAST),
+            *wall(1, 1.4, 1.5, first, EAST, *doors),
+            *wall(1, 3.5, 3.6, first, EAST, *doors),
+            *(b for x in self.west[:-1] for b in wall(0, x - 0.1, x, -3.6, 1.4)),
+            *(b for x in self.west[:-1] for b in wall(0, x - 0.1, x, 3.6, 8.6)),
+        ]
+
+    def straight_rooms(self) -> list[shapely.Polygon]:
+        """The floors of the rooms and of the corridor."""
+        rooms = [shapely.box(x, y, x + 4, y + 5) for x in self.west for y in (-3.6, 3.6)]
+        return [*rooms, shapely.box(self.west[-1], 1.5, EAST, 3.5)]
+
+    def places(self) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+        """Three in each room and its doorway, one before it; few in the wing."""
+        own = ((1, -1.0), (3, -2.5), (1, 6.0), (3, 7.0), (0.95, 1.45), (0.95, 3.55), (2, 2.4))
+        inside = [(x + dx, y) for x in self.west for dx, y in own]
+        return [*inside, (EAST + 0.1, 2.5)], [(1.4, 2.2), (2.9, 2.6), (5.6, 1.4)]
 
 
 class TwoWings:

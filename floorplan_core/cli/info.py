@@ -166,8 +166,9 @@ def _manhattan(found: SurveyInfo) -> str:
         ""
         if other is None
         else (
-            f"\n{other['share']:.0%} stand {abs(other['from_frame_deg']):.0f} degrees from it: "
-            "a wing, where rooms follow it, is planned in a frame of its own"
+            f"\n{other['share']:.1%} are long walls at other angles, most of them at "
+            f"{abs(other['from_frame_deg']):.0f} degrees: where rooms follow them they are a wing, planned "
+            "in a frame of its own, elsewhere they come out as steps"
         )
     )
     doubt = misfit(found.frame) if other is None else ()

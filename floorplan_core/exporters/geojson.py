@@ -90,6 +90,7 @@ def _head(plan: FloorPlan) -> Json:
         "storey": plan.storey,
         "source": plan.source,
         "frame_support": _metres(plan.frame.support),
+        "askew_share": _metres(plan.frame.askew),
         "floor_z_m": _floor(plan, 0.0),
         **({"wings": [_wing_head(plan, wing) for wing in plan.wings]} if plan.wings else {}),
     }

@@ -21,7 +21,7 @@ class ManhattanFrame:
     wall_area: float  # m2 of vertical surface that the estimate rests on
     floor_z: float  # metres, manhattan frame
     ceiling_z: float | None  # metres, manhattan frame; None where no ceiling was seen
-    askew: float = 0.0  # 0 to 1, share of the wall area along the strongest direction that is no axis of it
+    askew: float = 0.0  # 0 to 1, of a plan: share of its wall area in long lines at angles of no frame of it
 
     def from_manhattan(self, points: Float) -> Float:
         """(N, 2) or (N, 3) manhattan coordinates to (N, 3) local ones; 2-D points lie on the floor."""

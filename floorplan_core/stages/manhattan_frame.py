@@ -36,7 +36,6 @@ _LEVEL_SHARE = 0.08  # of the strongest level: less is a table or a ghost, not a
 _MIN_WALL_AREA = 0.5  # m2 of vertical surface, below which nothing can be said
 _LEVELLED = math.radians(0.25)  # a smaller tilt is that of a levelled instrument
 _LEVEL_REACHES = (0.3, 0.15, 0.08)  # m around the strongest level: first for a rough up, then for a better
-_ASKEW = math.radians(10)  # from the frame: walls at more are no noise of those that fit
 _POOR = 0.6  # of the walls along the axes: buildings without walls at other angles have 0.7 to 0.98
 _FLAT = 0.3  # m of height, below which a cloud is a 2-D scan
 
@@ -74,8 +73,7 @@ def estimate_frame(surfels: Surfels, config: FrameConfig, voxel: float = 0.0) ->
     rotation = turned_by(-yaw) @ level
     floor, ceiling = inner_faces(surfels, rotation, *floor_and_ceiling(surfels, normals, rotation))
     tilt = math.acos(float(np.clip(up[2], -1, 1)))
-    askew = _other(angle - yaw, weight, config)[1]
-    return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling, askew)
+    return ManhattanFrame(rotation, yaw, tilt, support, area, floor, ceiling)
 
 
 def _patches(surfels: Surfels, config: FrameConfig, voxel: float) -> CellNormals:
@@ -127,28 +125,6 @@ def misfit(frame: ManhattanFrame) -> tuple[str, ...]:
         "walls at other angles come out as steps or are missing (thick noise lowers the share, too); compare "
         "the planes with the plan, and force another direction with --set frame.yaw_deg=... if it is wrong.",
     )
-
-
-def other_direction(surfels: Surfels, frame: ManhattanFrame, config: FrameConfig) -> tuple[float, float]:
-    """The strongest direction of walls that do not fit ``frame``: radians from it, and share of all walls.
-
-    A wing at another angle shows here; ``surfels`` are those that ``frame`` belongs to.
-    """
-    normals = fit_cell_normals(surfels.centroid, config.cell, config.planarity)
-    n = normals.normal @ frame.rotation.T
-    vertical = np.abs(n[:, 2]) < math.sin(math.radians(15))
-    angle, weight = np.arctan2(n[vertical, 1], n[vertical, 0]), normals.weight[vertical]
-    return _other(angle, weight, config)
-
-
-def _other(angle: Float, weight: Float, config: FrameConfig) -> tuple[float, float]:
-    """The same from the angles of walls to an axis of the frame."""
-    askew = np.abs(wrap(angle)) > _ASKEW
-    if not weight[askew].sum() > 0:
-        return 0.0, 0.0
-    peak = strongest_direction(angle[askew], weight[askew])
-    near = askew & (np.abs(wrap(angle - peak)) < math.radians(config.tolerance_deg))
-    return peak, float(weight[near].sum() / weight.sum())
 
 
 def refined_direction(surfels: Surfels, coarse: float, config: FrameConfig) -> float:

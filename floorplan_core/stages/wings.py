@@ -3,39 +3,46 @@
 In: the evidence in the frame of the building. Out: a :class:`WingFloor` each, none for nearly all surveys.
 Free space is cut into rooms at its narrow places; the walls around each vote, by the direction that they
 have. Rooms in which the second direction wins are a wing; one room that has walls of both (a corridor with a
-bend) is cut where they are equally near. Cost: nothing where the frame explains nearly all walls, else one
-pass over the surfels and the cells for each wing.
+bend) is cut where they are equally near. A direction is one in which long lines of wall run
+(:mod:`~floorplan_core.stages.askew_walls`), however small their share of the building. Cost: a pass over the
+surfels; where there is such a direction, one more and one over the cells for each wing.
 """
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from floorplan_core.config import FrameConfig
-from floorplan_core.geometry.cell_normals import CellNormals, fit_cell_normals
 from floorplan_core.geometry.columns import height_mask
 from floorplan_core.geometry.masks import distance_to_gap, label_patches
 from floorplan_core.geometry.surfel_map import Surfels
 from floorplan_core.model import ManhattanFrame
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.stages.askew_walls import (
+    WallPatches,
+    in_band,
+    in_long_lines,
+    over_cells,
+    quarter,
+    walls_of,
+)
 from floorplan_core.stages.manhattan_frame import refined_direction, strongest_direction, turned_by
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-LEAST_SHARE = 0.08  # of the walls, with the second direction: clutter has less
 MOST_WINGS = 4  # at angles of their own: more is no building of wings
 _LEAST_WALLS = 8.0  # m2 of wall with the second direction, in all and in each wing
+_LEAST_LINES = 3.0  # m2 of it in long lines: clutter has none
+_DIRECTIONS = 4  # that are tried: the walls of a round room have all
+_OWN = 1.5  # times as much wall around a wing follows it as does not: a hall with a slanted wall is none
 _LEAST_AREA = 6.0  # m2 of floor of a wing
-_ASKEW = math.radians(10)  # from the frame: walls at less are noise of those that fit
-_NEAR = math.radians(8)  # of a direction: the wall follows it
-_STEEP = math.sin(math.radians(15))  # |z| of the normal of a wall
-_BAND = (1.0, 3.0)  # m above the floor, where walls are looked at: little furniture
 _FREE_BAND = (0.5, 1.9)  # m above the floor, where space must be free at some height
+_CLOSED = 3  # cells that walls are widened by to close gaps between what was seen of them
 _HALF_DOOR = 0.65  # m: space that is nowhere wider than twice this is the opening between two rooms
 _VOTE = (0.15, 0.3, 0.45)  # m in front of a wall, where the room is that it votes for
 _MIXED = 0.35  # share of a room's walls that is too much for a mistake
@@ -90,28 +97,29 @@ def _without(evidence: Evidence, cells: Mask) -> Evidence:
 
 def find_wing(evidence: Evidence, config: FrameConfig) -> WingFloor | None:
     """The wing, if there is one; ``evidence`` is in the frame of the building."""
-    if evidence.frame.askew < LEAST_SHARE:
-        return None
-    near = (evidence.xyz[:, 2] > _BAND[0]) & (evidence.xyz[:, 2] < _BAND[1])
-    surfels = _plain_surfels(evidence, near)
-    walls = fit_cell_normals(surfels.centroid, config.cell, config.planarity, most=len(surfels))
-    vertical = np.abs(walls.normal[:, 2]) < _STEEP
-    angle, weight = np.arctan2(walls.normal[:, 1], walls.normal[:, 0]), walls.weight
-    askew = vertical & (np.abs(_quarter(angle)) > _ASKEW)
-    least = _LEAST_WALLS / evidence.surfel**2
-    if weight[askew].sum() < least:
-        return None
-    turn = strongest_direction(angle[askew], weight[askew])
-    follows = vertical & (np.abs(_quarter(angle - turn)) < _NEAR) & askew
-    if weight[follows].sum() < max(least, LEAST_SHARE * weight[vertical].sum()):
-        return None
-    straight = vertical & (np.abs(_quarter(angle)) < _NEAR)
-    cells = _floor_of(evidence, walls, straight, follows)
-    if not cells.any():
-        return None
-    around = _over(_grown(cells, _WALL_REACH / evidence.cell), evidence)  # its walls stand beside its floor
-    turn = refined_direction(_plain_surfels(evidence, near & around), turn, config)
-    return WingFloor(turn, cells)
+    walls = walls_of(evidence, config)
+    lines = in_long_lines(walls, walls.askew)
+    rooms = None
+    for turn in _directions(walls, lines):
+        rooms = _rooms_of(evidence, walls) if rooms is None else rooms
+        cells = _floor_of(evidence, rooms, walls, lines, turn)
+        if cells.any():
+            near = in_band(evidence.xyz[:, 2])
+            around = _over(_grown(cells, _WALL_REACH / evidence.cell), evidence)  # its walls stand beside it
+            return WingFloor(refined_direction(_plain_surfels(evidence, near & around), turn, config), cells)
+    return None
+
+
+def _directions(walls: WallPatches, lines: Mask) -> Iterator[float]:
+    """Directions of the long ``lines`` of wall, that of most first, with enough walls for a wing."""
+    left = lines.copy()
+    for _ in range(_DIRECTIONS):
+        if walls.extent(left) < _LEAST_LINES:
+            return
+        turn = strongest_direction(walls.angle[left], walls.area[left])
+        if walls.extent(walls.askew & walls.along(turn)) >= _LEAST_WALLS:
+            yield turn
+        left &= ~walls.along(turn)
 
 
 def part_of(evidence: Evidence, cells: Mask, turn: float) -> Part:
@@ -137,12 +145,20 @@ def same_floor(cells: Mask, evidence: Evidence, other: Evidence, turn: float) ->
     ny, nx = other.shape
     y, x = np.mgrid[0:ny, 0:nx] + 0.5
     centres = np.column_stack([x.ravel(), y.ravel()]) * other.cell + other.origin
-    return _lookup(cells, centres @ turned_by(-turn)[:2, :2], evidence).reshape(ny, nx)
+    return over_cells(cells, centres @ turned_by(-turn)[:2, :2], evidence).reshape(ny, nx)
+
+
+def floor_of_wings(wings: Sequence[Part], seen: Evidence) -> Mask:
+    """(ny, nx) cells of ``seen``, in the axes of the plan, in the wings or as near as their walls."""
+    cells = np.zeros(seen.shape, dtype=bool)
+    for wing in wings:
+        cells |= same_floor(wing.cells, wing.evidence, seen, -wing.turn)
+    return _grown(cells, _WALL_REACH / seen.cell) if wings else cells
 
 
 def wing_frame(frame: ManhattanFrame, turn: float) -> ManhattanFrame:
     """The frame of a wing."""
-    return replace(frame, rotation=turned_by(-turn) @ frame.rotation, yaw=float(_quarter(frame.yaw + turn)))
+    return replace(frame, rotation=turned_by(-turn) @ frame.rotation, yaw=float(quarter(frame.yaw + turn)))
 
 
 def _plain_surfels(evidence: Evidence, rows: Mask) -> Surfels:
@@ -151,28 +167,45 @@ def _plain_surfels(evidence: Evidence, rows: Mask) -> Surfels:
     return Surfels(xyz, evidence.count[rows], zeros, zeros[:, :2], evidence.surfel)
 
 
-def _floor_of(evidence: Evidence, walls: CellNormals, straight: Mask, follows: Mask) -> Mask:
-    """(ny, nx) cells of the rooms whose walls follow the second direction."""
+def _rooms_of(evidence: Evidence, walls: WallPatches) -> NDArray[np.int32]:
+    """(ny, nx) number of the room of each cell, from 1; 0 elsewhere."""
     free = (evidence.free & height_mask(*_FREE_BAND)) != 0
-    rooms = _rooms(free, evidence.cell)
+    return _rooms(free | _enclosed(evidence, walls) if evidence.inferred else free, evidence.cell)
+
+
+def _enclosed(evidence: Evidence, walls: WallPatches) -> Mask:
+    """Cells that walls and lintels close in: in a small room a scan may see neither floor nor ceiling."""
+    stands = np.zeros(evidence.shape, dtype=bool)
+    stands[_cell_index(walls.surfels, evidence)] = True
+    label, _ = label_patches(np.pad(~_grown(stands, _CLOSED), 1, constant_values=True))
+    inside = (label != 0) & (label != label[0, 0])
+    return _grown(inside[1:-1, 1:-1], _CLOSED) & ~stands
+
+
+def _floor_of(
+    evidence: Evidence, rooms: NDArray[np.int32], walls: WallPatches, lines: Mask, turn: float
+) -> Mask:
+    """(ny, nx) cells of the rooms whose walls follow the second direction."""
+    straight, follows = walls.along(0.0), walls.askew & walls.along(turn)
     count = int(rooms.max()) + 1
-    votes = [_votes(rooms, walls, mask, evidence, count) for mask in (straight, follows)]
-    for_wing = votes[1] > votes[0]
+    votes = [_votes(rooms, walls, mask, evidence, count) for mask in (straight, follows, lines & ~follows)]
+    for_wing = votes[1] > votes[0] + votes[2]  # a round room has walls of all directions
     for_wing[0] = False
     cells = for_wing[rooms]
-    enough = _MIXED_WALLS / evidence.surfel**2
-    mixed = np.minimum(*votes) > np.maximum(_MIXED * (votes[0] + votes[1]), enough)
+    mixed = np.minimum(*votes[:2]) > np.maximum(_MIXED * (votes[0] + votes[1]), _MIXED_WALLS)
+    mixed &= votes[2] < votes[1]
     mixed[0] = False
     if mixed.any():
         nearer = _distance(walls, follows, evidence) < _distance(walls, straight, evidence)
-        cells = np.where(mixed[rooms], nearer & free, cells)
-    seen = np.zeros(evidence.shape)
-    np.add.at(seen, _cell_index(walls.centre[follows], evidence), walls.weight[follows])
+        cells = np.where(mixed[rooms], nearer & (rooms > 0), cells)
     label, number = label_patches(_grown(cells, 2))
     area = np.bincount(label[cells], minlength=number + 1) * evidence.cell**2
     around = _grown_labels(label, round(_WALL_REACH / evidence.cell))
-    wall = np.bincount(around.ravel(), weights=seen.ravel(), minlength=number + 1) * evidence.surfel**2
-    kept = (area >= _LEAST_AREA) & (wall >= _LEAST_WALLS)
+    part = around[_cell_index(walls.xy, evidence)]
+    wall, other = (
+        np.bincount(part[mask], minlength=number + 1) * walls.cell**2 for mask in (follows, ~follows)
+    )
+    kept = (area >= _LEAST_AREA) & (wall >= np.maximum(_LEAST_WALLS, _OWN * other))
     kept[0] = False
     return np.asarray(cells & kept[label])
 
@@ -197,23 +230,23 @@ def _grown_labels(label: NDArray[np.int32], steps: int) -> NDArray[np.int32]:
     return label
 
 
-def _votes(rooms: NDArray[np.int32], walls: CellNormals, mask: Mask, evidence: Evidence, count: int) -> Float:
-    """(count,) surfels of the walls ``mask`` in front of which each room lies."""
+def _votes(rooms: NDArray[np.int32], walls: WallPatches, mask: Mask, evidence: Evidence, count: int) -> Float:
+    """(count,) m2 of the walls ``mask`` in front of which each room lies."""
     total = np.zeros(count)
     for sign in (-1, 1):
         voted = np.zeros(int(mask.sum()), dtype=np.int32)
         for reach in _VOTE:
-            at = walls.centre[mask] + sign * reach * walls.normal[mask]
+            at = walls.xy[mask] + sign * reach * walls.normal[mask]
             voted = np.where(voted == 0, rooms[_cell_index(at, evidence)], voted)
-        total += np.bincount(voted, weights=walls.weight[mask], minlength=count)
+        total += np.bincount(voted, weights=walls.area[mask], minlength=count)
     total[0] = 0.0
     return total
 
 
-def _distance(walls: CellNormals, mask: Mask, evidence: Evidence) -> Float:
+def _distance(walls: WallPatches, mask: Mask, evidence: Evidence) -> Float:
     """(ny, nx) cells to the nearest of the walls ``mask``."""
     away = np.ones(evidence.shape, dtype=bool)
-    away[_cell_index(walls.centre[mask], evidence)] = False
+    away[_cell_index(walls.xy[mask], evidence)] = False
     return distance_to_gap(away)
 
 
@@ -224,16 +257,7 @@ def _grown(cells: Mask, steps: float) -> Mask:
 
 def _over(cells: Mask, evidence: Evidence) -> Mask:
     """(N,) which surfels lie over ``cells``."""
-    return _lookup(cells, evidence.xyz[:, :2], evidence)
-
-
-def _lookup(cells: Mask, xy: Float, evidence: Evidence) -> Mask:
-    """(N,) whether points lie in ``cells``; False beyond the grid."""
-    index = np.floor((xy - evidence.origin) / evidence.cell).astype(np.int64)
-    ny, nx = cells.shape
-    inside = (index >= 0).all(axis=1) & (index[:, 0] < nx) & (index[:, 1] < ny)
-    index[~inside] = 0
-    return np.asarray(cells[index[:, 1], index[:, 0]] & inside)
+    return over_cells(cells, evidence.xyz[:, :2], evidence)
 
 
 def _cell_index(xy: Float, evidence: Evidence) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -241,8 +265,3 @@ def _cell_index(xy: Float, evidence: Evidence) -> tuple[NDArray[np.int64], NDArr
     index = np.floor((xy[:, :2] - evidence.origin) / evidence.cell).astype(np.int64)
     ny, nx = evidence.shape
     return np.clip(index[:, 1], 0, ny - 1), np.clip(index[:, 0], 0, nx - 1)
-
-
-def _quarter(angle: Float | float) -> Float:
-    """Angles modulo 90 degrees, in [-45, 45)."""
-    return np.asarray((np.asarray(angle) + math.pi / 4) % (math.pi / 2) - math.pi / 4)

@@ -5396,6 +5396,10 @@
    <translation>{0} m² freier Raum liegen in keiner Region: Kein Rechteck von Wänden schließt sie ein.</translation>
   </message>
   <message>
+   <source>{0} m2 of wall ({1} of all) stand at other angles than the plan, and no rooms follow them: they come out as steps or are missing.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
    <source>{0} mesh</source>
    <translation>{0}-Netz</translation>
   </message>
