@@ -83,7 +83,9 @@ def lay_out(
         lambda: find_planes(segments, rows, evidence, parts, config.doors),
         *(segments, rows, evidence, parts, config.doors),
     )
-    planes = stage("planes", lambda: close_corners(remove_beams(planes, *beams)), planes, beams)
+    planes = stage(
+        "planes", lambda: close_corners(remove_beams(planes, *beams), wide.max_opening), planes, beams
+    )
     around = stage.correct("viewpoints", lambda: looked_around(evidence), evidence)
     machine = stage(
         "planes",

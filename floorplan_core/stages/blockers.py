@@ -23,6 +23,7 @@ _SOLID = 0.12  # of the height below 2 m, seen: something stands there
 _PASSED = 1.0  # m of an open stretch through which free space was seen
 _JAMB = 0.1  # m from the edge of a door, where its jamb is wall
 _BESIDE = 4.0  # m of unseen wall between a door and the next corner
+_FREE_SHARE, _LINTEL_SHARE = 0.3, 0.7  # shares of a passage that are free, and under a lintel
 _EXACT = 1e-6  # m
 _TOUCH = 0.3  # m beyond the end of the other wall
 _NOWHERE: Float = np.zeros(0)
@@ -46,14 +47,24 @@ def passing_offsets(plane: LayoutPlane, others: Float) -> Float:
     return np.asarray(others[beyond, 0])
 
 
-def close_corners(planes: Sequence[LayoutPlane]) -> tuple[LayoutPlane, ...]:
-    """Extend each wall run to the crossing wall near its end, where nothing was seen to pass between."""
+def close_corners(planes: Sequence[LayoutPlane], widest: float = 0.0) -> tuple[LayoutPlane, ...]:
+    """Extend each wall run to the crossing wall near its end, where nothing was seen to pass between.
+
+    Where it goes on as a lintel to just before such a wall at most ``widest`` metres away, and nothing was
+    seen of the rest, a jamb is hidden there.
+    """
     crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
     out = []
     for plane in planes:
-        meets = crossing_offsets(plane, crossing[1 - plane.facing.axis])
-        runs = [(_reach(plane, s, -1, meets), _reach(plane, e, 1, meets)) for s, e in plane.walls]
-        out.append(replace(plane, walls=np.array(runs, dtype=np.float64).reshape(-1, 2)))
+        others = crossing[1 - plane.facing.axis]
+        meets, past = crossing_offsets(plane, others), passing_offsets(plane, others)
+        corners = np.setdiff1d(meets, past)
+        reached = [(_reach(plane, s, -1, meets), _reach(plane, e, 1, meets)) for s, e in plane.walls]
+        runs = [
+            (_carried(plane, s, -1, corners, widest), _carried(plane, e, 1, corners, widest))
+            for s, e in reached
+        ]
+        out.append(replace(plane, walls=_joined(runs)))
     return tuple(out)
 
 
@@ -220,6 +231,27 @@ def _reach(plane: LayoutPlane, end: float, sign: int, meets: Float, farthest: fl
     a, b = sorted(round((v - plane.profile.start) / plane.profile.step) for v in (end, target))
     through = plane.profile.through[max(a, 0) : b]
     return end if len(through) and float((through > 0.15).mean()) > 0.3 else target
+
+
+def _carried(plane: LayoutPlane, end: float, sign: int, meets: Float, widest: float) -> float:
+    """The end of a run, moved along a lintel to the crossing wall whose corner hides the lintel's jamb."""
+    ahead = (meets - end) * sign
+    ahead = ahead[(ahead > _HIDDEN) & (ahead <= widest)]
+    profile = plane.profile
+    if len(ahead) == 0 or profile is None:
+        return end
+    target = end + sign * float(ahead.min())
+    a, b = sorted(round((v - profile.start) / profile.step) for v in (end, target))
+    order = slice(max(a, 0), b)
+    passed, above = profile.through[order][::sign] > _FREE_SHARE, profile.high[order][::sign] > 0
+    seen = np.flatnonzero(passed)
+    if len(seen) * profile.step < _PASSED:
+        return end
+    last = int(seen[-1]) + 1
+    hidden = (len(passed) - last) * profile.step
+    if not _STUB < hidden <= _HIDDEN or above[last:].any() or profile.low[order][::sign][last:].any():
+        return end
+    return target if float(above[:last].mean()) >= _LINTEL_SHARE else end
 
 
 def blockers(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> Float:

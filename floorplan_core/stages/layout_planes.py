@@ -37,6 +37,9 @@ _PATCHY = 0.7  # m between patches of floor, where no ray told free space
 _SEEN, _STRONG = 0.12, 0.35  # of the height below 2 m: something was seen, a wall was seen
 _TAIL = (0.25, 0.7)  # m at the end of a wall in which something was seen here and there
 _HOLE = 0.4  # m, too narrow to pass
+_LINTEL_HOLE = 1.0  # m, the same of a lintel, where as much was seen of it on both sides
+_JAMB_HOLE = 0.6  # m, the same between a lintel and the wall that carries it
+_LINTEL, _LINTEL_SHARE = 0.4, 0.5  # m beside such a hole, and the share of it that must show lintel
 _EXACT = 1e-6  # m
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
@@ -256,7 +259,10 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     wall = _close(solid | lintel, round(_HOLE / 2 / profile.step))  # beside the jambs a lintel is seen least
     joined: list[list[int]] = []
     for a, b in runs_of(wall).tolist():
-        if joined and _is_hidden(profile, joined[-1][1], a, config):
+        if joined and (
+            _is_hidden(profile, joined[-1][1], a, config)
+            or _is_in_lintel(lintel, solid, joined[-1][1], a, profile.step)
+        ):
             joined[-1][1] = b
         else:
             joined.append([a, b])
@@ -286,6 +292,19 @@ def _is_hidden(profile: WallProfile, a: int, b: int, config: PlanesConfig) -> bo
     """True where cells a to b are unseen rather than open."""
     through = profile.through[a:b]
     return (b - a) * profile.step <= config.bridge and float((through > 0.15).mean() if b > a else 0.0) < 0.2
+
+
+def _is_in_lintel(lintel: NDArray[np.bool_], solid: NDArray[np.bool_], a: int, b: int, step: float) -> bool:
+    """True where cells a to b are a hole in a lintel, or between a lintel and its jamb.
+
+    A tilted lidar sees a lintel in stripes, a scanner near by the parts between its beams.
+    """
+    reach = round(_LINTEL / step)
+    sides = slice(max(a - reach, 0), a), slice(b, b + reach)
+    spans = [float(lintel[side].mean()) >= _LINTEL_SHARE for side in sides]
+    stands = [bool(solid[side].mean() >= _LINTEL_SHARE) for side in sides]
+    widest = _LINTEL_HOLE if all(spans) else _JAMB_HOLE
+    return (b - a) * step <= widest and any(spans) and all(np.logical_or(spans, stands))
 
 
 def _trim(firm: NDArray[np.bool_], run: list[int]) -> list[int] | None:

@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from floorplan_core.model import Door, Facing, LayoutPlane, WallProfile
-from floorplan_core.stages.blockers import close_beside_doors, passing_offsets, remove_beams
+from floorplan_core.stages.blockers import (
+    close_beside_doors,
+    close_corners,
+    passing_offsets,
+    remove_beams,
+)
 
 STEP, BEAMS = 0.05, (1.9, 0.45, 4.0)
 CORNER = 10.0  # where the other walls meet the plane
@@ -71,6 +76,37 @@ def _with(plane: LayoutPlane, low: float, through: float, start: float, end: flo
 def test_a_jamb_may_begin_behind_a_little_that_nobody_saw(hidden: float, cut: bool) -> None:
     wall = spanned([(2.0, 5.0), (7.0 + hidden, 10.0)])
     assert is_cut(_with(wall, 0.0, 0.0, 7.0, 7.0 + hidden)) is cut
+
+
+def behind_a_corner(hidden: float, lintel: float = 1.0) -> LayoutPlane:
+    """A wall to 7.5 m that goes on as a lintel, passed by free space, to ``hidden`` metres before 10 m."""
+    plane = spanned([(2.0, 7.5)])
+    profile = plane.profile
+    assert profile is not None
+    at = STEP * (np.arange(len(profile.low)) + 0.5)
+    unseen = at > CORNER - hidden
+    shown = (at < 7.5) | (((at - 7.5) % 1.0) < lintel)
+    seen = replace(
+        profile,
+        high=np.where(unseen | ~shown, 0.0, profile.high),
+        through=np.where(unseen, 0.0, profile.through),
+    )
+    return replace(plane, profile=seen, walls=np.array([(2.0, 7.5)]))
+
+
+def reaches(plane: LayoutPlane, *others: LayoutPlane) -> float:
+    """Where the wall ends, lintels behind corners included."""
+    return float(close_corners([plane, *others], BEAMS[2])[0].walls[-1, 1])
+
+
+def test_a_lintel_goes_on_to_the_corner_that_hides_its_jamb() -> None:
+    corner = across(CORNER, ENDS_HERE)
+    assert reaches(behind_a_corner(0.4), corner) == pytest.approx(CORNER)
+    assert reaches(behind_a_corner(0.0), corner) == pytest.approx(7.5), "nothing is hidden there"
+    assert reaches(behind_a_corner(0.7), corner) == pytest.approx(7.5), "too much is"
+    assert reaches(behind_a_corner(0.4, lintel=0.5), corner) == pytest.approx(7.5), "little hangs there"
+    assert reaches(behind_a_corner(0.4), across(CORNER, GOES_ON)) == pytest.approx(7.5), "a beam"
+    assert reaches(behind_a_corner(0.4)) == pytest.approx(7.5), "no corner"
 
 
 @pytest.mark.parametrize(("through", "cut"), [(1.0, False), (0.0, True)])

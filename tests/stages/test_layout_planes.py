@@ -44,7 +44,26 @@ def test_a_lintel_that_was_not_seen_beside_its_jambs_is_part_of_the_wall() -> No
     parts: Parts = {(2.0, 4.0): 0.9, (6.8, 9.0): 0.9}
     through: Parts = {(4.0, 6.8): 1.0}
     assert runs(parts, through, high={(4.35, 6.45): 0.5}) == [pytest.approx([2.0, 9.0])]
-    assert len(runs(parts, through, high={(4.6, 6.2): 0.5})) == 2
+    assert runs(parts, through, high={(4.55, 6.25): 0.5}) == [pytest.approx([2.0, 9.0])]
+    assert len(runs(parts, through, high={(4.75, 6.05): 0.5})) == 2
+
+
+def test_a_lintel_seen_in_stripes_is_one_lintel() -> None:
+    """A tilted lidar leaves most of it out; what is too far apart is two things that hang there."""
+    parts: Parts = {(2.0, 4.0): 0.9, (6.8, 9.0): 0.9}
+    through: Parts = {(4.0, 6.8): 1.0}
+
+    def striped(*stripes: tuple[float, float]) -> list[list[float]]:
+        return runs(parts, through, dict.fromkeys(stripes, 0.2))
+
+    assert striped((4.2, 5.0), (5.9, 6.5)) == [pytest.approx([2.0, 9.0])]
+    assert len(striped((4.2, 4.8), (6.0, 6.5))) == 2
+    assert len(striped((4.2, 5.0))) == 2, "nothing hangs before the other jamb"
+
+
+def test_a_speck_in_a_gap_is_no_lintel() -> None:
+    parts: Parts = {(2.0, 4.0): 0.9, (5.4, 8.0): 0.9}
+    assert len(runs(parts, {(4.0, 5.4): 1.0}, {(4.65, 4.75): 0.2})) == 2
 
 
 def test_a_few_returns_beyond_the_end_make_no_wall() -> None:
