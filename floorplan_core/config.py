@@ -41,8 +41,8 @@ class InputConfig(Section):
     topic: str = setting(
         "",
         "",
-        "Topics of a ROS recording that hold the scans, with commas between; empty: the clouds of all sensors, "
-        "else their planar scans, else their depth images.",
+        "Topics of a ROS recording that hold the scans, with commas between; empty: the clouds of all "
+        "sensors, else their planar scans, else their depth images.",
     )
     max_range: float = setting(30.0, "m", "Points farther from their sensor are dropped.", gt=0.5, le=500)
     min_range: float = setting(0.05, "m", "Points nearer to their sensor are dropped.", ge=0, le=5)
