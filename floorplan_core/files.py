@@ -25,6 +25,7 @@ from floorplan_core.process_ids import is_running
 
 STAGING_PREFIX = ".floorcast-"
 _STAGED = re.compile(re.escape(STAGING_PREFIX) + r"\d+-[^/\\]*[/\\]")
+HELD = (signal.SIGINT, signal.SIGTERM)
 STALE = 3600.0  # s: a younger folder may be that of a program on another machine that shares the disk
 
 _REASONS = {
@@ -56,10 +57,11 @@ def output_folder(folder: Path) -> Iterator[Path]:
     ``folder`` is made where missing, and removed again if the block fails. Raises :class:`OutputError`,
     before the block begins where the folder cannot be written to.
     """
-    made = _make_folder(folder)
+    made: list[Path] = []
     staging: Path | None = None
     try:
-        with writing(folder):
+        with writing(folder), uninterrupted():  # or a signal comes before we know what there is to remove
+            made = _make_folder(folder)
             _forget_stale(folder)
             staging = Path(tempfile.mkdtemp(prefix=f"{STAGING_PREFIX}{os.getpid()}-", dir=folder))
         yield staging
@@ -97,33 +99,41 @@ def write_text(path: Path, text: str) -> None:
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Hold Ctrl-C back until the block is done (moving files takes milliseconds)."""
+    """Hold Ctrl-C and SIGTERM back until the block is done (moving files takes milliseconds)."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     held: list[int] = []
-    previous = signal.signal(signal.SIGINT, lambda number, frame: held.append(number))
+    ours = [s for s in HELD if signal.getsignal(s) is not None]  # None: a library's, in C, is left alone
+    previous = {int(s): signal.signal(s, lambda number, _: held.append(number)) for s in ours}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, previous)
-        if held:
-            _deliver(previous)
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+        for number in held[:1]:
+            _deliver(number, previous[number])
 
 
 Handler = Callable[[int, FrameType | None], object] | int | signal.Handlers | None
 
 
-def _deliver(handler: Handler) -> None:
+def _deliver(number: int, handler: Handler) -> None:
+    """What would have happened when the signal came; one whose handler is the system's ends the program."""
     if callable(handler):
-        handler(signal.SIGINT, None)
+        handler(number, None)
+    elif handler != signal.SIG_IGN:
+        signal.raise_signal(number)
 
 
 def _make_folder(folder: Path) -> list[Path]:
     """Make ``folder`` with its parents; returns what was made, deepest first."""
     missing = [p for p in (folder, *folder.parents) if not os.path.lexists(p)]
-    with writing(folder):
+    try:
         folder.mkdir(parents=True, exist_ok=True)
+    except OSError:  # a full disk may hold some of them
+        _discard(None, [p for p in missing if p.is_dir()])
+        raise
     return missing
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from floorplan_core import files
+from floorplan_core.cli.signals import interrupts_cancel
 from floorplan_core.errors import OutputError
 from floorplan_core.files import (
     STAGING_PREFIX,
@@ -143,18 +144,55 @@ def test_a_sentence_names_the_file_and_not_where_it_is_made(tmp_path: Path) -> N
     assert f"Cannot write {tmp_path}/plan.svg: " in str(output_error(OSError(errno.EFBIG, ""), staged))
 
 
-def test_ctrl_c_waits_until_the_files_are_in_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    move = files._move_into_place
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_waits_until_the_files_are_in_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    replace = files._replace
 
-    def interrupted_move(staging: Path, folder: Path) -> None:
-        os.kill(os.getpid(), signal.SIGINT)
-        move(staging, folder)
+    def interrupted_move(new: Path, target: Path, keep: Path) -> None:
+        replace(new, target, keep)
+        os.kill(os.getpid(), number)
 
-    monkeypatch.setattr(files, "_move_into_place", interrupted_move)
-    with pytest.raises(KeyboardInterrupt), output_folder(tmp_path) as staging:
+    monkeypatch.setattr(files, "_replace", interrupted_move)
+    with (
+        pytest.raises(KeyboardInterrupt),
+        interrupts_cancel() as token,
+        output_folder(tmp_path) as staging,
+    ):
         (staging / "a.txt").write_text("a")
         (staging / "b.txt").write_text("b")
+    assert token.cancelled
     assert tree(tmp_path) == {"a.txt": "a", "b.txt": "b"}  # both, and no temporary folder
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_while_the_folder_is_made_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    make = files.tempfile.mkdtemp
+
+    def interrupted_make(**how: str) -> str:
+        os.kill(os.getpid(), number)
+        return str(make(**how))
+
+    monkeypatch.setattr(files.tempfile, "mkdtemp", interrupted_make)
+    with pytest.raises(KeyboardInterrupt), interrupts_cancel(), output_folder(tmp_path / "x" / "y"):
+        raise AssertionError("the block must not begin")
+    assert os.listdir(tmp_path) == []
+
+
+def test_parents_that_were_made_go_again_where_the_folder_cannot_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: Path, mode: int = 0o777, parents: bool = False, exist_ok: bool = False) -> None:
+        os.mkdir(tmp_path / "x")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "mkdir", full)
+    with pytest.raises(OutputError, match="no space left"), output_folder(tmp_path / "x" / "y"):
+        raise AssertionError("the block must not begin")
+    assert os.listdir(tmp_path) == []
 
 
 def test_held_back_signals_are_delivered_once_and_the_handler_returns() -> None:

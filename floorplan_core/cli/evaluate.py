@@ -8,22 +8,31 @@ from typing import Annotated
 import typer
 
 from floorplan_core.cli.console import Console
-from floorplan_core.cli.options import DebugFlag, JsonFlag, QuietFlag
+from floorplan_core.cli.options import DebugFlag, JsonFlag, QuietFlag, named_path
 
 
 def evaluate(
     context: typer.Context,
     plan: Annotated[
-        Path, typer.Argument(metavar="PLAN", help="A plan.geojson, or the folder that holds one.")
+        Path,
+        typer.Argument(
+            metavar="PLAN", parser=named_path, help="A plan.geojson, or the folder that holds one."
+        ),
     ],
     truth: Annotated[
-        Path, typer.Argument(metavar="TRUTH", help="A truth.json, or an IFC model of the building.")
+        Path,
+        typer.Argument(
+            metavar="TRUTH", parser=named_path, help="A truth.json, or an IFC model of the building."
+        ),
     ],
     storey: Annotated[
         int, typer.Option("--storey", min=0, help="Storey of an IFC model, from the lowest, which is 0.")
     ] = 0,
     save_truth: Annotated[
-        Path | None, typer.Option("--save-truth", metavar="FILE", help="Write the truth as truth.json, too.")
+        Path | None,
+        typer.Option(
+            "--save-truth", metavar="FILE", parser=named_path, help="Write the truth as truth.json, too."
+        ),
     ] = None,
     as_json: JsonFlag = False,
     quiet: QuietFlag = False,

@@ -15,6 +15,7 @@ from floorplan_core.cli.options import (
     DrawingUnits,
     JsonFlag,
     QuietFlag,
+    named_path,
 )
 
 
@@ -22,11 +23,21 @@ def export(
     context: typer.Context,
     plan: Annotated[
         Path,
-        typer.Argument(metavar="PLAN", help="A folder that `floorcast plan` wrote, or its plan.floorplan."),
+        typer.Argument(
+            metavar="PLAN",
+            parser=named_path,
+            help="A folder that `floorcast plan` wrote, or its plan.floorplan.",
+        ),
     ],
     to: Annotated[
         list[Path],
-        typer.Option("--to", metavar="FILE", help="A file to write; may be repeated.", show_default=False),
+        typer.Option(
+            "--to",
+            metavar="FILE",
+            parser=named_path,
+            help="A file to write; may be repeated.",
+            show_default=False,
+        ),
     ],
     format_: Annotated[
         str | None, typer.Option("--format", metavar="NAME", help="Exporter to use instead of the suffix's.")

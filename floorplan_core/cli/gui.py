@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from floorplan_core.cli.options import DebugFlag
+from floorplan_core.cli.options import DebugFlag, named_path
 
 APPLICATION = "floorcast_app"
 QT = "PySide6"
@@ -16,13 +16,14 @@ QT = "PySide6"
 
 def gui(
     survey: Annotated[
-        Path | None, typer.Argument(metavar="[INPUT]", help="Survey or project to open.")
+        Path | None, typer.Argument(metavar="[INPUT]", parser=named_path, help="Survey or project to open.")
     ] = None,
     script: Annotated[
         Path | None,
         typer.Option(
             "--script",
             metavar="FILE",
+            parser=named_path,
             help="Run a script offscreen: Python that uses `app`, or a JSON list of actions.",
         ),
     ] = None,

@@ -10,6 +10,14 @@ import typer
 if TYPE_CHECKING:
     from floorplan_core.config import Config
 
+
+def named_path(text: str) -> Path:
+    """The path of an argument; an empty one (a variable that is not set) would be the current folder."""
+    if not str(text):
+        raise typer.BadParameter("it is empty: name a file or a folder")
+    return Path(text)
+
+
 JsonFlag = Annotated[
     bool, typer.Option("--json", help="One machine-readable line on stdout instead of text.")
 ]
@@ -17,7 +25,12 @@ QuietFlag = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing bu
 DebugFlag = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
 ConfigFile = Annotated[
     Path | None,
-    typer.Option("--config", metavar="FILE.yaml", help="Settings to use instead of the defaults."),
+    typer.Option(
+        "--config",
+        metavar="FILE.yaml",
+        parser=named_path,
+        help="Settings to use instead of the defaults.",
+    ),
 ]
 Assignments = Annotated[
     list[str] | None,
@@ -27,6 +40,7 @@ SurveyArguments = Annotated[
     list[Path],
     typer.Argument(
         metavar="INPUT",
+        parser=named_path,
         help="A point cloud, a folder of scans, or a grid map; several files are read as one survey.",
         show_default=False,
     ),
@@ -40,7 +54,10 @@ StoreyNumber = Annotated[
 TrajectoryFile = Annotated[
     Path | None,
     typer.Option(
-        "--trajectory", metavar="FILE", help="The sensor's path (TUM); default: the file beside INPUT."
+        "--trajectory",
+        metavar="FILE",
+        parser=named_path,
+        help="The sensor's path (TUM); default: the file beside INPUT.",
     ),
 ]
 Resolution = Annotated[
@@ -66,7 +83,10 @@ DrawingTitle = Annotated[
     ),
 ]
 OutFolder = Annotated[
-    Path, typer.Option("--out", "-o", metavar="DIR", help="Folder for the results.", show_default=False)
+    Path,
+    typer.Option(
+        "--out", "-o", metavar="DIR", parser=named_path, help="Folder for the results.", show_default=False
+    ),
 ]
 
 

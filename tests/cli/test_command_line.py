@@ -52,6 +52,29 @@ def test_help_loads_nothing_heavy(arguments: list[str]) -> None:
     assert done.stdout.strip()
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["plan", "survey.ply", "--out", ""],
+        ["plan", "", "--out", "x"],
+        ["plan", "survey.ply", "--out", "x", "--trajectory", ""],
+        ["plan", "survey.ply", "--out", "x", "--config", ""],
+        ["watch", "survey.ply", "--out", ""],
+        ["simulate", "--out", ""],
+        ["export", "plan", "--to", ""],
+        ["evaluate", "plan", "truth.json", "--save-truth", ""],
+        ["gui", ""],
+    ],
+)
+def test_an_empty_name_is_not_the_current_folder(
+    arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main.run(arguments) == 2
+    assert "it is empty: name a file or a folder" in one_sentence(capfd.readouterr().err)
+    assert not list(tmp_path.iterdir())
+
+
 def test_help_lists_every_command_and_the_exit_statuses(capfd: pytest.CaptureFixture[str]) -> None:
     assert main.run(["--help"]) == 0
     text = capfd.readouterr().out
