@@ -41,3 +41,18 @@ class Cancelled(FloorPlanError):
     """The work was cancelled by the user; nothing was written."""
 
     exit_status = 130
+
+
+def let_interrupt_through(error: BaseException) -> None:
+    """Raise the Ctrl-C that ``error`` was made of, if any.
+
+    Compiled code, and Python itself where it imports compiled modules, make errors of their own of one that
+    comes while they run; who takes these for a failure of somebody else would go on.
+    """
+    seen: set[int] = set()
+    cause: BaseException | None = error
+    while cause is not None and id(cause) not in seen:
+        if isinstance(cause, KeyboardInterrupt):
+            raise cause
+        seen.add(id(cause))
+        cause = cause.__cause__ or cause.__context__

@@ -17,6 +17,7 @@ from typing import Any
 
 import pluggy
 
+from floorplan_core.errors import let_interrupt_through
 from floorplan_core.plugins import PROJECT, Exporter, Hooks, PluginStatus, Reader, RegionClassifier
 
 ENTRY_POINT_GROUP = "floorcast.plugins"
@@ -54,6 +55,7 @@ def _load(name: str, origin: str, importer: Callable[[], Any]) -> tuple[PluginSt
     except (KeyboardInterrupt, MemoryError):
         raise
     except BaseException as error:  # noqa: BLE001 - whatever a plugin does, even sys.exit(), the program goes on
+        let_interrupt_through(error)
         status.error = reason(error)
         return status, []
     return status, things

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from floorplan_core.drawing_style import DrawingStyle, Styled, in_style
-from floorplan_core.errors import FloorPlanError, InputError, OutputError
+from floorplan_core.errors import FloorPlanError, InputError, OutputError, let_interrupt_through
 from floorplan_core.plugins import Exporter, PluginStatus, Reader, ReadOptions, RegionClassifier
 
 if TYPE_CHECKING:
@@ -45,6 +45,7 @@ def _failures(status: PluginStatus, doing: str, kind: type[FloorPlanError]) -> I
     except (FloorPlanError, OSError, MemoryError):
         raise
     except Exception as error:
+        let_interrupt_through(error)
         status.error = f"{reason(error)} (while {doing})"
         raise kind(
             f"The plugin {status.name!r} failed while {doing} ({reason(error)}) and was switched off."

@@ -11,9 +11,10 @@ from typing import Any
 from floorplan_core.api import EmptyInput, InputError
 
 HEADER_BYTES = 375  # of LAS 1.4, the longest
-SIZES = {2: 227, 3: 235, 4: 375}  # bytes of the header by minor version
+SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}  # bytes of the header by minor version
 RECORD_BYTES = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)  # least record by point format
 VLR_BYTES = 54
+SIGNATURE = b"\xdd\xcc"  # of LAS 1.0
 MAX_CHUNK_BYTES = 64 << 20  # of one LAZ chunk, unpacked; writers take 50,000 points
 COMPRESSED = 0x80  # bit of the point format that LAZ sets
 MAX_FIELDS = 1 << 14  # bytes of one record that can be meant
@@ -42,7 +43,7 @@ def read_las_head(path: Path) -> LasHead:
         raise InputError(f"{path.name} is truncated inside its LAS header ({len(data)} bytes).")
     major, minor = data[24], data[25]
     if major != 1 or minor not in SIZES or len(data) < SIZES[minor]:
-        raise InputError(f"{path.name} is LAS version {major}.{minor}; readable are 1.2, 1.3 and 1.4.")
+        raise InputError(f"{path.name} is LAS version {major}.{minor}; readable are 1.0 to 1.4.")
     size, offset, vlrs, form, record, count = struct.unpack_from("<HIIBHI", data, 94)
     if minor == 4:
         count = struct.unpack_from("<Q", data, 247)[0] or count
@@ -64,6 +65,8 @@ def _check(path: Path, head: LasHead, size: int, vlrs: int) -> None:
         )
     if head.count == 0:
         raise EmptyInput(f"{path.name} is a LAS file of 0 points.")
+    if head.minor == 0 and not head.compressed:
+        _check_signature(path, head, total)
     held = (total - head.offset) // head.record
     if not head.compressed and held < head.count:
         raise InputError(
@@ -71,6 +74,18 @@ def _check(path: Path, head: LasHead, size: int, vlrs: int) -> None:
         )
     if head.compressed:
         _check_chunk_table(path, head, total)
+
+
+def _check_signature(path: Path, head: LasHead, total: int) -> None:
+    """LAS 1.0 has two bytes before the first point; some writers put the first point at these bytes."""
+    with path.open("rb") as handle:
+        handle.seek(head.offset)
+        signed = handle.read(2) == SIGNATURE
+    if signed and total - head.offset == 2 + head.count * head.record:
+        raise InputError(
+            f"{path.name} is LAS 1.0 and says that its first point is two bytes before it is; "
+            "convert it to LAS 1.2 or later."
+        )
 
 
 def _check_chunk_table(path: Path, head: LasHead, total: int) -> None:

@@ -1,4 +1,4 @@
-"""LAS and LAZ 1.2 to 1.4 (laspy, lazrs): scaled integers, GPS time, classes, coordinate reference system."""
+"""LAS and LAZ 1.0 to 1.4 (laspy, lazrs): scaled integers, GPS time, classes, coordinate reference system."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class LasReader:
 
     name = "LAS"
     suffixes: tuple[str, ...] = (".las", ".laz")
-    description = "LAS and LAZ 1.2 to 1.4, with GPS time, classes and CRS"
+    description = "LAS and LAZ 1.0 to 1.4, with GPS time, classes and CRS"
 
     def sniff(self, path: Path, head: bytes) -> float:
         """1 where the file begins with ``LASF``."""

@@ -7,6 +7,7 @@ already handled here.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
@@ -21,8 +22,13 @@ if TYPE_CHECKING:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with the documented status."""
     _open_what_is_closed()
-    status = run(sys.argv[1:] if arguments is None else list(arguments))
-    sys.exit(_flushed(status))
+    try:
+        status = _flushed(run(sys.argv[1:] if arguments is None else list(arguments)))
+    except KeyboardInterrupt:  # after the last word, while it went out
+        status = 130
+    for number in (signal.SIGINT, signal.SIGTERM):  # what was to be done is done: its status counts
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(status)
 
 
 def _open_what_is_closed() -> None:

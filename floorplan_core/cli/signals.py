@@ -37,20 +37,31 @@ def interrupts_cancel() -> Iterator[CancelToken]:
         yield token
         return
     before = {s: signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)}
-    hook = sys.unraisablehook
+    hook, raised = sys.unraisablehook, list[BaseException]()
     try:
         sys.unraisablehook = partial(_raise_swallowed_again, hook)
-        signal.signal(signal.SIGINT, partial(_unwind, token, KeyboardInterrupt()))
-        signal.signal(signal.SIGTERM, partial(_unwind, token, Terminated()))
+        signal.signal(signal.SIGINT, partial(_unwind, token, raised, KeyboardInterrupt()))
+        signal.signal(signal.SIGTERM, partial(_unwind, token, raised, Terminated()))
         yield token
+    except Exception as error:
+        if raised:  # what a library made of it: an import that is interrupted fails with an error of its own
+            raise raised[0] from error
+        raise
     finally:
         sys.unraisablehook = hook
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def _unwind(token: CancelToken, error: BaseException, number: int, frame: FrameType | None) -> None:
+def _unwind(
+    token: CancelToken,
+    raised: list[BaseException],
+    error: BaseException,
+    number: int,
+    frame: FrameType | None,
+) -> None:
     token.cancel()
+    raised.append(error)
     raise error
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floorplan_core.errors import FloorPlanError, InputError
+from floorplan_core.errors import FloorPlanError, InputError, let_interrupt_through
 from floorplan_core.readers.records import join_chunks
 from floorplan_core.readers.source import SAMPLE_POINTS, RawChunk
 
@@ -22,6 +22,7 @@ def import_library(module: str, package: str, purpose: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
+        let_interrupt_through(error)
         raise InputError(
             f"Reading {purpose} needs the library {module}, which cannot be loaded; "
             f"install it with: pip install '{package}'."
@@ -43,6 +44,7 @@ def damaged(name: str, what: str, advice: str = "") -> Iterator[None]:
     except OSError as error:
         raise InputError(f"Cannot read {name}: {error.strerror or _reason(error)}.") from error
     except BaseException as error:
+        let_interrupt_through(error)
         raise InputError(
             f"{name} is no {what} that can be read, or is damaged ({_reason(error)}){advice}."
         ) from error

@@ -14,7 +14,7 @@ from floorplan_core.model import Reconstruction
 from floorplan_core.observer import Observer
 from floorplan_core.plugins import ReadOptions
 from floorplan_core.readers.assemble import assemble
-from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name
+from floorplan_core.readers.fields import SCAN_ID_NAMES, STAMP_NAMES, find_name, find_xyz
 from floorplan_core.readers.npz_arrays import StoredArray, list_arrays
 from floorplan_core.readers.records import as_scan_id, join_chunks
 from floorplan_core.readers.source import (
@@ -39,7 +39,9 @@ class NpzReader:
 
     name = "NPZ"
     suffixes: tuple[str, ...] = (".npz", ".npy")
-    description = "numpy arrays: points (N, 3), optional scan_id (N,)"
+    description = (
+        "numpy arrays: points (N, 3), (3, N) or (h, w, 3), or records with x, y and z; optional scan_id"
+    )
 
     def sniff(self, path: Path, head: bytes) -> float:
         """1 for an array; 0.9 for an archive whose first member is one."""
@@ -54,7 +56,7 @@ class NpzReader:
 
 def npz_source(path: Path) -> PointSource:
     """The points of an NPZ or NPY file."""
-    arrays = list_arrays(path)
+    arrays = _with_fields(list_arrays(path))
     points = _points_array(path, arrays)
     columns = [points]
     names = [name for name in arrays if arrays[name] is not points]
@@ -84,18 +86,42 @@ def _require_surfaces(path: Path, points: StoredArray) -> None:
         )
 
 
+def _with_fields(arrays: dict[str, StoredArray]) -> dict[str, StoredArray]:
+    """All arrays; of records their coordinates, under the name of the array, scan ids and times."""
+    found = {}
+    for name, array in arrays.items():
+        fields = array.dtype.names or ()
+        whole = find_name(fields, POINT_NAMES)
+        xyz = find_xyz(fields) or (() if whole is None else (whole,))
+        if not xyz:
+            found[name] = array.as_rows()
+            continue
+        found[name] = array.columns(*xyz)
+        for wanted in (SCAN_ID_NAMES, STAMP_NAMES):
+            field = find_name(fields, wanted)
+            if field is not None:
+                found.setdefault(field, array.columns(field))
+    return found
+
+
 def _points_array(path: Path, arrays: dict[str, StoredArray]) -> StoredArray:
     """The array of the usual names, else the only one of the right shape."""
     fitting = {name: a for name, a in arrays.items() if a.is_points}
+    if len(records := [a for a in fitting.values() if a.fields]) == 1:
+        return _not_empty(path, records[0])
     name = find_name(fitting, POINT_NAMES)
     if name is None and len(fitting) == 1:
         name = next(iter(fitting))
     if name is None:
         shapes = ", ".join(f"{n} {a.shape}" for n, a in list(arrays.items())[:8]) or "none"
         raise InputError(f"{path.name} holds no array of points of shape (N, 3); its arrays: {shapes}.")
-    if fitting[name].shape[0] == 0:
+    return _not_empty(path, fitting[name])
+
+
+def _not_empty(path: Path, points: StoredArray) -> StoredArray:
+    if points.shape[0] == 0:
         raise EmptyInput(f"{path.name} holds 0 points.")
-    return fitting[name]
+    return points
 
 
 def _chunks(columns: list[StoredArray], has_scan_id: bool, has_stamps: bool) -> Iterator[RawChunk]:

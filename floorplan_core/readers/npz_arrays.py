@@ -7,7 +7,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from pathlib import Path
 from typing import IO, Any
@@ -24,6 +24,8 @@ PLAIN_KINDS = "fiu"
 MAGIC = b"\x93NUMPY"
 MAX_HEADER_BYTES = 1 << 16
 MAX_LENGTH = 1 << 53
+MAX_ITEM = 1 << 14  # bytes of one record
+WIDEST = 64  # columns of one point
 PLAIN_TYPE = re.compile(r"[<>|=]?[a-zA-Z][0-9]{0,6}")
 
 
@@ -37,15 +39,39 @@ class StoredArray:
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
     fortran: bool
+    fields: tuple[str, ...] = ()  # of records: those whose numbers are the columns
 
     @property
     def is_points(self) -> bool:
         """True for (N, 3) or wider plain numbers."""
-        return len(self.shape) == 2 and 3 <= self.shape[1] <= 64 and self.dtype.kind in PLAIN_KINDS
+        return len(self.shape) == 2 and 3 <= self.shape[1] <= WIDEST and self.is_plain
+
+    @property
+    def is_plain(self) -> bool:
+        """True for numbers; False for text, complex numbers and records without chosen fields."""
+        kinds = {self.dtype[field].base.kind for field in self.fields} or {self.dtype.kind}
+        return kinds <= set(PLAIN_KINDS)
+
+    def as_rows(self) -> StoredArray:
+        """The same numbers as (N, 3) where they can be nothing else: (3, N), or an image (h, w, 3)."""
+        if len(self.shape) == 2 and self.shape[0] == 3 and self.shape[1] > WIDEST and self.is_plain:
+            return replace(self, shape=self.shape[::-1], fortran=not self.fortran)
+        if len(self.shape) == 3 and self.shape[2] == 3 and self.dtype.kind == "f" and not self.fortran:
+            return replace(self, shape=(self.shape[0] * self.shape[1], 3))
+        return self
+
+    def columns(self, *fields: str) -> StoredArray:
+        """The numbers of some fields of records, as an array of its own."""
+        width = sum(prod(self.dtype[field].shape) for field in fields)
+        shape = (prod(self.shape), width) if width > 1 else (prod(self.shape),)
+        return replace(self, shape=shape, fields=fields, fortran=False)
 
     def rows(self, count: int) -> Iterator[NDArray[Any]]:
         """Blocks of at most ``count`` rows, in order."""
         width = prod(self.shape[1:])
+        if self.fields:
+            yield from self._rows_of_records(count)
+            return
         if self.fortran and width > 1:
             yield from self._rows_by_column(count, width)
             return
@@ -54,6 +80,15 @@ class StoredArray:
             for start in range(0, self.shape[0], count):
                 rows = min(count, self.shape[0] - start)
                 yield self._read(stream, rows * width).reshape(rows, *self.shape[1:])
+
+    def _rows_of_records(self, count: int) -> Iterator[NDArray[Any]]:
+        with _open(self.path, self.member) as stream:
+            _read_header(stream, self.path.name)
+            for start in range(0, self.shape[0], count):
+                rows = min(count, self.shape[0] - start)
+                records = self._read(stream, rows)
+                parts = [records[field].reshape(rows, -1) for field in self.fields]
+                yield np.concatenate(parts, axis=1).reshape(rows, *self.shape[1:])
 
     def _rows_by_column(self, count: int, width: int) -> Iterator[NDArray[Any]]:
         """Fortran order keeps column after column: as many streams as columns that we use."""
@@ -96,7 +131,7 @@ def list_arrays(path: Path) -> dict[str, StoredArray]:
                 _refuse_bomb(path, info)
                 with archive.open(info) as stream:
                     stored = _stored(stream, path, info.filename, info.filename.removesuffix(".npy"))
-                    if stored.dtype.kind in PLAIN_KINDS:
+                    if stored.is_plain or stored.dtype.names:
                         _check_size(stored, info.file_size - stream.tell())
                         arrays[stored.name] = stored
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
@@ -135,12 +170,30 @@ def _shape(value: Any) -> tuple[int, ...]:
 
 
 def _dtype(descr: Any) -> np.dtype[Any]:
-    """A plain type as it is; records, which we do not read, as bytes."""
+    """A plain type, or a record of named fields of plain types."""
     if isinstance(descr, list):
-        return np.dtype("V1")
+        return _record(descr)
     if not isinstance(descr, str) or not PLAIN_TYPE.fullmatch(descr):
         raise ValueError(descr)
     return np.dtype(descr)
+
+
+def _record(descr: list[Any]) -> np.dtype[Any]:
+    """A record; bytes without a name that fill it up (as aligned ones have them) are passed over."""
+    names, formats, offsets, size = [], [], [], 0
+    for name, kind, *more in descr:
+        shape = _shape(more[0]) if more else ()
+        if isinstance(kind, list) or not isinstance(name, str):  # records within records: nobody's points
+            return np.dtype("V1")
+        part = np.dtype((_dtype(kind), shape))
+        if name:
+            names.append(name)
+            formats.append(part)
+            offsets.append(size)
+        size += part.itemsize
+        if size > MAX_ITEM:
+            raise ValueError(descr)
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": size})
 
 
 def _check_size(stored: StoredArray, there: int) -> None:

@@ -1268,8 +1268,8 @@
    <translation>LAS und LAZ</translation>
   </message>
   <message>
-   <source>LAS and LAZ 1.2 to 1.4, with GPS time, classes and CRS</source>
-   <translation>LAS und LAZ 1.2 bis 1.4, mit GPS-Zeit, Klassen und Koordinatensystem</translation>
+   <source>LAS and LAZ 1.0 to 1.4, with GPS time, classes and CRS</source>
+   <translation>LAS und LAZ 1.0 bis 1.4, mit GPS-Zeit, Klassen und Koordinatensystem</translation>
   </message>
   <message>
    <source>LAS file</source>
@@ -4548,8 +4548,8 @@
    <translation>Zahlen ohne Kopf (ein Scan von KITTI?); den Ordner der Scans angeben, mit seiner Trajektorie</translation>
   </message>
   <message>
-   <source>numpy arrays: points (N, 3), optional scan_id (N,)</source>
-   <translation>numpy-Felder: Punkte (N, 3), scan_id (N,) wenn vorhanden</translation>
+   <source>numpy arrays: points (N, 3), (3, N) or (h, w, 3), or records with x, y and z; optional scan_id</source>
+   <translation>numpy-Felder: Punkte (N, 3), (3, N) oder (h, w, 3), oder Datensätze mit x, y und z; scan_id, wenn vorhanden</translation>
   </message>
   <message>
    <source>one grey value for each region, on the raster of the grid map</source>
@@ -5040,8 +5040,12 @@
    <translation>{0} hat die E57-Version {1}.{2}; lesbar ist Version 1.</translation>
   </message>
   <message>
-   <source>{0} is LAS version {1}.{2}; readable are 1.2, 1.3 and 1.4.</source>
-   <translation>{0} hat die LAS-Version {1}.{2}; lesbar sind 1.2, 1.3 und 1.4.</translation>
+   <source>{0} is LAS 1.0 and says that its first point is two bytes before it is; convert it to LAS 1.2 or later.</source>
+   <translation>{0} ist LAS 1.0 und nennt den ersten Punkt zwei Bytes zu früh; in LAS 1.2 oder neuer umwandeln.</translation>
+  </message>
+  <message>
+   <source>{0} is LAS version {1}.{2}; readable are 1.0 to 1.4.</source>
+   <translation>{0} hat die LAS-Version {1}.{2}; lesbar sind 1.0 bis 1.4.</translation>
   </message>
   <message>
    <source>{0} is a CARMEN log without scans that have poses (FLASER or ROBOTLASER1 messages).</source>

@@ -159,6 +159,26 @@ def test_noise_is_left_out_and_counted(tmp_path, cloud, version, form):
     assert sum("12 of the" in text and "noise" in text for text in observer.warnings) == 1
 
 
+@pytest.mark.parametrize("minor", [0, 1])
+@pytest.mark.parametrize("suffix", [".las", ".laz"])
+def test_old_versions(tmp_path, cloud, minor, suffix):
+    """Their headers are those of 1.2; what is a bit field or an identity there was reserved."""
+    path = write_las(tmp_path / f"a{suffix}", cloud, "1.2", 1)
+    data = bytearray(path.read_bytes())
+    data[4:24], data[25] = bytes(20), minor
+    path.write_bytes(bytes(data))
+    np.testing.assert_allclose(whole(opened(path))[0], cloud, atol=1e-4)
+
+
+def test_a_signature_where_the_first_point_should_be(tmp_path, cloud):
+    path = write_las(tmp_path / "a.las", cloud, "1.2", 0)
+    data = bytearray(path.read_bytes())
+    offset = struct.unpack_from("<I", data, 96)[0]
+    data[25] = 0
+    path.write_bytes(bytes(data[:offset] + b"\xdd\xcc" + data[offset:]))
+    assert "two bytes before it is" in refusal(path)
+
+
 def test_chunks_are_bounded(tmp_path, cloud, monkeypatch):
     import floorcast_plugins.las as module
 

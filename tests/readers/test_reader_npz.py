@@ -130,3 +130,80 @@ def test_free_voxels_are_told_from_surfaces(tmp_path):
         open_survey(tmp_path / "free.npz", config=AS_IT_IS)
     np.savez(tmp_path / "walls.npz", centers=_voxels(solid=False).astype(np.float32), res=0.1)
     assert open_survey(tmp_path / "walls.npz", config=AS_IT_IS).point_count == len(_voxels(solid=False))
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("suffix", ["npy", "npz"])
+def test_coordinates_row_by_row(tmp_path, cloud, order, suffix):
+    path = tmp_path / f"a.{suffix}"
+    rows = np.asarray(cloud.T, order=order)
+    if suffix == "npy":
+        np.save(path, rows)
+    else:
+        np.savez(path, xyz=rows, scan_id=np.arange(len(cloud)))
+    points, ids = all_points(open_survey(path, config=AS_IT_IS))
+    np.testing.assert_allclose(points, cloud, atol=1e-5)
+    assert (ids is None) == (suffix == "npy")
+
+
+def test_an_image_of_points(tmp_path, cloud):
+    path = tmp_path / "a.npy"
+    np.save(path, cloud[:1000].reshape(20, 50, 3))
+    np.testing.assert_allclose(all_points(open_survey(path, config=AS_IT_IS))[0], cloud[:1000], atol=1e-5)
+    np.save(path, np.zeros((20, 50, 3), np.uint8))  # a picture
+    with pytest.raises(InputError, match="no array of points"):
+        open_survey(path)
+
+
+RECORDS = {
+    "plain": [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("scan_id", "<i4")],
+    "mixed": [("intensity", ">u2"), ("Z", ">f8"), ("Y", ">f8"), ("X", ">f8"), ("scan_id", "u1")],
+    "whole": [("rgb", "u1", (3,)), ("xyz", "<f8", (3,)), ("scan_id", "<i8")],
+}
+
+
+@pytest.mark.parametrize("kind", RECORDS)
+@pytest.mark.parametrize("align", [False, True])
+@pytest.mark.parametrize("suffix", ["npy", "npz"])
+def test_records(tmp_path, cloud, kind, align, suffix):
+    records = np.zeros(len(cloud), np.dtype(RECORDS[kind], align=align))
+    ids = np.arange(len(cloud)) // 40
+    records["scan_id"] = ids
+    if kind == "whole":
+        records["xyz"] = cloud
+    else:
+        for axis, name in enumerate("xyz"):
+            records[name if kind == "plain" else name.upper()] = cloud[:, axis]
+    path = tmp_path / f"a.{suffix}"
+    if suffix == "npy":
+        np.save(path, records)
+    else:
+        np.savez_compressed(path, frames=records, poses=np.zeros((5, 7)))
+    survey = open_survey(path, config=AS_IT_IS)
+    points, found = all_points(survey)
+    np.testing.assert_allclose(points, cloud, atol=1e-5)
+    np.testing.assert_array_equal(found, ids)
+    assert survey.point_count == len(cloud)
+
+
+@pytest.mark.parametrize(
+    "descr",
+    [
+        [("x", "<f4"), ("y", "<f4")],
+        [("a", [("x", "<f4"), ("y", "<f4"), ("z", "<f4")])],
+        [("x", "<U4"), ("y", "<U4"), ("z", "<U4")],
+    ],
+)
+def test_records_without_coordinates(tmp_path, descr):
+    np.save(tmp_path / "a.npy", np.zeros(9, descr))
+    with pytest.raises(InputError, match="no array of points"):
+        open_survey(tmp_path / "a.npy")
+
+
+def test_records_of_absurd_size(tmp_path):
+    header = {"shape": (9,), "fortran_order": False, "descr": [("x", "<f8", (10**9, 10**6))]}
+    buffer = io.BytesIO()
+    np.lib.format.write_array_header_1_0(buffer, header)
+    (tmp_path / "a.npy").write_bytes(buffer.getvalue() + bytes(64))
+    with pytest.raises(InputError, match="damaged"):
+        open_survey(tmp_path / "a.npy")
