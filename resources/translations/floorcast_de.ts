@@ -5401,7 +5401,7 @@
   </message>
   <message>
    <source>{0} m2 of wall ({1} of all) stand at other angles than the plan, and no rooms follow them: they come out as steps or are missing.</source>
-   <translation type="unfinished" />
+   <translation>{0} m2 Wand ({1} von allen) stehen in anderen Winkeln als der Plan, und keine Räume folgen ihnen: sie erscheinen als Stufen oder fehlen.</translation>
   </message>
   <message>
    <source>{0} mesh</source>
