@@ -15,8 +15,10 @@ import json
 import struct
 import zipfile
 import zlib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import IO, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +29,11 @@ from floorplan_core.intermediates_tree import Malformed, Pools, decode, encode
 FORMAT = "floorcast intermediate"
 FORMAT_VERSION = 1
 TREE = "tree.json"
-EPOCH = (1980, 1, 1, 0, 0, 0)  # no time stamps: the same content gives the same bytes
 COMPRESSION_LEVEL = 1  # the grids shrink by 20; higher levels cost ten times as long for a tenth more
 MAX_MEMBER_BYTES = 8 * 2**30  # no plan comes near; a larger member is a bomb
 MAX_TREE_BYTES = 2**29
+MOST_SHRUNK = 1100  # times that deflate can shrink anything: 1032
+PIECE = 1 << 20  # bytes that are unpacked together
 
 _DAMAGE = (  # what zipfile, zlib, json and numpy raise for bytes that are not theirs
     ValueError,
@@ -49,13 +52,17 @@ T = TypeVar("T")
 
 def save(value: object, path: Path) -> None:
     """Write ``value`` to ``path``. Raises TypeError for what is not data (functions, object arrays)."""
-    path.write_bytes(dumps(value))
+    pools = Pools()
+    tree = encode(value, pools)  # before the file is there: what is not data leaves none behind
+    with path.open("wb") as file:
+        _write(file, tree, pools)
 
 
 def load(path: Path, expected: type[T]) -> T:
     """Read what :func:`save` wrote; :class:`InputError` unless it is a whole, well-formed ``expected``."""
     try:
-        value = loads(path.read_bytes())
+        with path.open("rb") as file:
+            value = _read(file)
     except OSError as error:
         raise InputError(f"Cannot read {path.name}: {(error.strerror or str(error)).lower()}.") from error
     except (Malformed, *_DAMAGE) as error:
@@ -69,64 +76,97 @@ def load(path: Path, expected: type[T]) -> T:
 
 def dumps(value: object) -> bytes:
     """``value`` as the bytes of a file."""
-    pools = Pools()
-    tree = {"format": FORMAT, "version": FORMAT_VERSION, "root": encode(value, pools)}
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:
-        _add(archive, TREE, json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode())
-        for name, parts in sorted(pools.parts.items()):
-            _add(archive, f"{name}.npy", _npy(np.concatenate(parts)))
+    pools, buffer = Pools(), io.BytesIO()
+    _write(buffer, encode(value, pools), pools)
     return buffer.getvalue()
 
 
-def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
-    entry = zipfile.ZipInfo(name, EPOCH)
-    archive.writestr(entry, data, zipfile.ZIP_DEFLATED, COMPRESSION_LEVEL)
+def _write(file: IO[bytes], tree: Any, pools: Pools) -> None:
+    """The file; arrays go into it one after the other, as those of a large site take half a gigabyte."""
+    tree = {"format": FORMAT, "version": FORMAT_VERSION, "root": tree}
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=COMPRESSION_LEVEL) as archive:
+        _add(archive, TREE, [json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode()])
+        for name, parts in sorted(pools.parts.items()):
+            _add(archive, f"{name}.npy", [_npy_header(parts), *parts])
 
 
-def _npy(array: NDArray[Any]) -> bytes:
+def _add(archive: zipfile.ZipFile, name: str, parts: Sequence[bytes | NDArray[Any]]) -> None:
+    """A member of these bytes. Its time is 1980, which :class:`zipfile.ZipInfo` has where none is given."""
+    size = sum(part.nbytes if isinstance(part, np.ndarray) else len(part) for part in parts)
+    with archive.open(name, "w", force_zip64=1.05 * size > zipfile.ZIP64_LIMIT) as member:
+        for part in parts:  # beyond that limit a member needs the sizes of large files
+            member.write(part.view(np.uint8).data if isinstance(part, np.ndarray) else part)
+
+
+def _npy_header(parts: Sequence[NDArray[Any]]) -> bytes:
+    """What comes before the numbers of one array that is all of ``parts``, end to end."""
     buffer = io.BytesIO()
-    np.lib.format.write_array(buffer, array, allow_pickle=False)
+    head = np.lib.format.header_data_from_array_1_0(parts[0][:0])
+    np.lib.format.write_array_header_1_0(buffer, {**head, "shape": (sum(len(part) for part in parts),)})
     return buffer.getvalue()
 
 
 def loads(data: bytes) -> object:
     """The value in the bytes of a file; raises :class:`Malformed` and what the libraries raise."""
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+    return _read(io.BytesIO(data))
+
+
+def _read(file: IO[bytes]) -> object:
+    with zipfile.ZipFile(file) as archive:
         tree = json.loads(_member(archive, TREE, MAX_TREE_BYTES))
         if not isinstance(tree, dict) or tree.get("format") != FORMAT:
             raise Malformed("it is another kind of zip file")
         if tree.get("version") != FORMAT_VERSION:
             raise Malformed(f"its version is {tree.get('version')!r}, this program reads {FORMAT_VERSION}")
         names = [n for n in archive.namelist() if n != TREE]
-        pools = {n.removesuffix(".npy"): _array(_member(archive, n, MAX_MEMBER_BYTES)) for n in names}
+        pools = {n.removesuffix(".npy"): _array(archive, n) for n in names}
     return decode(tree.get("root"), pools)
 
 
 def _member(archive: zipfile.ZipFile, name: str, limit: int) -> bytes:
+    with _opened(archive, name, limit) as (member, _):
+        return member.read()
+
+
+@contextmanager
+def _opened(archive: zipfile.ZipFile, name: str, limit: int) -> Iterator[tuple[IO[bytes], int]]:
+    """A member and how many bytes it claims to hold."""
     try:
-        size = archive.getinfo(name).file_size
+        entry = archive.getinfo(name)
     except KeyError:
         raise Malformed(f"it has no {name}") from None
-    if size > limit:
-        raise Malformed(f"{name} claims {size} bytes")
+    if entry.file_size > min(limit, MOST_SHRUNK * (entry.compress_size + 1)):
+        raise Malformed(f"{name} claims {entry.file_size} bytes")
     try:
-        return archive.read(name)
+        with archive.open(entry) as member:
+            yield member, entry.file_size
     except (NotImplementedError, RuntimeError) as error:  # unknown compression, encryption
         raise Malformed(str(error)) from error
 
 
-def _array(data: bytes) -> NDArray[Any]:
-    """The one-dimensional array of an .npy member; its header may not promise more than the member holds."""
-    stream = io.BytesIO(data)
-    if np.lib.format.read_magic(stream) != (1, 0):
-        raise Malformed("an array has an unknown header")
-    shape, _, dtype = np.lib.format.read_array_header_1_0(stream)
-    if dtype.kind not in "biuf" or len(shape) != 1:
-        raise Malformed(f"an array has type {dtype} and shape {shape}")
-    if shape[0] * dtype.itemsize != len(data) - stream.tell():
-        raise Malformed("an array is shorter or longer than its header says")
-    return np.frombuffer(data, dtype=dtype, offset=stream.tell())
+def _array(archive: zipfile.ZipFile, name: str) -> NDArray[Any]:
+    """The one-dimensional array of an .npy member; its header may not promise more than the member holds.
+
+    Unpacked into its place piece by piece: nothing of it is held twice.
+    """
+    with _opened(archive, name, MAX_MEMBER_BYTES) as (member, size):
+        if np.lib.format.read_magic(member) != (1, 0):
+            raise Malformed("an array has an unknown header")
+        shape, _, dtype = np.lib.format.read_array_header_1_0(member)
+        if dtype.kind not in "biuf" or len(shape) != 1:
+            raise Malformed(f"an array has type {dtype} and shape {shape}")
+        if shape[0] < 0 or shape[0] * dtype.itemsize != size - member.tell():
+            raise Malformed("an array is shorter or longer than its header says")
+        out = np.zeros(shape[0], dtype=dtype)
+        flat, at = out.view(np.uint8), 0
+        while piece := member.read(PIECE):
+            if at + len(piece) > len(flat):
+                raise Malformed("an array is longer than its header says")
+            flat[at : at + len(piece)] = np.frombuffer(piece, dtype=np.uint8)
+            at += len(piece)
+        if at != len(flat):
+            raise Malformed("an array is shorter than its header says")
+        return out
 
 
 def _why(error: Exception) -> str:

@@ -163,7 +163,7 @@ def _decode_array(parts: list[Any], pools: dict[str, NDArray[Any]]) -> NDArray[A
     count = math.prod(shape)
     if name not in pools or start + count > len(pools[name]):
         raise Malformed("an array is missing")
-    return pools[name][start : start + count].reshape(shape).copy()
+    return pools[name][start : start + count].reshape(shape)  # of the pool, as no other array has this part
 
 
 def _decode_scalar(parts: list[Any], pools: dict[str, NDArray[Any]]) -> Any:

@@ -7,6 +7,7 @@ import io
 import json
 import math
 import pickle
+import tracemalloc
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -287,6 +288,19 @@ PLAN_BYTES = intermediates.dumps(factories.small_flat())
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.99])
 def test_truncated_files_are_refused(share: float, tmp_path: Path) -> None:
     refused(PLAN_BYTES[: int(share * len(PLAN_BYTES))], tmp_path)
+
+
+def test_arrays_are_held_once_while_they_are_saved_and_loaded(tmp_path: Path) -> None:
+    arrays, path = tuple(np.zeros(2**20) for _ in range(4)), tmp_path / "large.floorplan"
+    size = sum(a.nbytes for a in arrays)
+    tracemalloc.start()
+    try:
+        intermediates.save(arrays, path)
+        assert tracemalloc.get_traced_memory()[1] < size / 4
+        assert len(intermediates.load(path, tuple)) == 4
+        assert size < tracemalloc.get_traced_memory()[1] < 1.5 * size
+    finally:
+        tracemalloc.stop()
 
 
 def test_missing_file(tmp_path: Path) -> None:

@@ -10,6 +10,8 @@ import pytest
 import shapely
 
 from floorplan_core.exporters.geojson import geojson_text
+from floorplan_core.geometry.surfel_map import SurfelMap
+from floorplan_core.model import ManhattanFrame
 from floorplan_core.stages import islands
 from tests.box_world import rotation, run, stations, survey, two_rooms
 
@@ -122,3 +124,15 @@ def test_a_wide_site_of_one_piece_has_no_islands(campus, monkeypatch):
     plan = run(survey(*small())).plan
     assert plan.wings == ()
     assert not any("apart" in text for text in plan.warnings)
+
+
+@pytest.mark.parametrize(("ghosts", "found"), [((), 0), (((900.0, 700.0, 1.0),), 1)])
+def test_a_site_of_one_piece_is_taken_out_only_where_strays_widen_it(ghosts, found):
+    ground = np.stack(np.meshgrid(np.arange(0, 340, 0.25), np.arange(0, 340, 0.25)), axis=-1).reshape(-1, 2)
+    points = np.concatenate([np.column_stack([ground, np.zeros(len(ground))]), np.reshape(ghosts, (-1, 3))])
+    surfels = SurfelMap(0.05)
+    surfels.insert(points, np.full(len(points), -1, dtype=np.int32), np.zeros((0, 3)), (0.05, 30.0))
+    frame = ManhattanFrame(np.eye(3), 0.0, 0.0, 1.0, 10.0, 0.0, None)
+    sites = islands.find_islands(surfels, frame)
+    assert len(sites) == found
+    assert all(len(site.surfels_of(surfels)) == len(ground) for site in sites)

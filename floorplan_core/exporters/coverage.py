@@ -21,6 +21,7 @@ Float = NDArray[np.float64]
 MERGE = 5e-4
 # Polygons are kept on a grid of 1e-6: a vertex on a slanted edge of its neighbour lies beside it by as much.
 ON_EDGE = 2e-6
+AT_ONCE = 200_000  # pairs of an edge and a vertex that are looked at together: 20 MB
 
 
 def matched(polygons: Sequence[Any]) -> list[Any]:
@@ -84,6 +85,17 @@ def _insert(ring: Float, vertices: Float) -> Float:
     edge = np.diff(ring, axis=0)
     length = np.hypot(edge[:, 0], edge[:, 1])
     starts, edge, length = ring[:-1][length > 0], edge[length > 0], length[length > 0, None]
+    step = max(1, AT_ONCE // max(len(vertices), 1))
+    parts = [
+        part
+        for k in range(0, len(starts), step)
+        for part in _split(starts[k : k + step], edge[k : k + step], length[k : k + step], vertices)
+    ]
+    return np.vstack([*parts, ring[:1]])
+
+
+def _split(starts: Float, edge: Float, length: Float, vertices: Float) -> list[Float]:
+    """The start of each edge and, in order, those of the ``vertices`` that lie inside it."""
     away = vertices - starts[:, None]  # (edges, vertices, 2)
     along = (away[..., 0] * edge[:, :1] + away[..., 1] * edge[:, 1:]) / length
     across = (away[..., 1] * edge[:, :1] - away[..., 0] * edge[:, 1:]) / length
@@ -95,4 +107,4 @@ def _insert(ring: Float, vertices: Float) -> Float:
         parts.append(starts[k : k + 1])
         if on[k].any():
             parts.append(vertices[on[k]][np.argsort(along[k, on[k]])])
-    return np.vstack([*parts, ring[:1]])
+    return parts

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ Json = dict[str, Any]
 DECIMALS = 4  # metres: 0.1 mm
 MATRIX_DECIMALS = 12
 _ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+TOGETHER = 100  # regions whose predicted space is written at once
 INSET = 2e-4  # metres: predicted space keeps this far inside its region, more than rounding can move it
 
 
@@ -46,20 +48,49 @@ class GeoJsonExporter:
 
     def write(self, plan: FloorPlan, path: Path) -> None:
         """Write ``plan`` to ``path`` as UTF-8, one feature a line."""
-        path.write_text(geojson_text(plan), encoding="utf-8", newline="\n")
+        with path.open("w", encoding="utf-8", newline="\n") as file:
+            file.writelines(_text(plan))
 
 
 def geojson_text(plan: FloorPlan) -> str:
     """The file's text: the head, then one line for each feature, so that versions can be compared by line."""
-    document = plan_to_geojson(plan)
-    lines = ",\n".join(_dump(f) for f in document["features"])
-    head = _dump(document["floorcast"])
-    return f'{{"type": "FeatureCollection",\n"floorcast": {head},\n"features": [\n{lines}\n]}}\n'
+    return "".join(_text(plan))
+
+
+def _text(plan: FloorPlan) -> Iterator[str]:
+    """The same piece by piece: what is predicted of a large site takes a gigabyte as Python's values."""
+    polygons = _outlines(plan)
+    yield f'{{"type": "FeatureCollection",\n"floorcast": {_dump(_head(plan))},\n"features": [\n'
+    for feature in _seen(plan, polygons):
+        yield f"{_dump(feature)},\n"
+    first, last = _dump(_feature("speculated", _multipolygon([]), {})).split("[]", 1)
+    yield f"{first}["
+    area, begun = 0.0, False
+    for predicted, own in _speculated(plan, polygons):
+        yield (", " if begun and predicted else "") + _dump(_rings(predicted))[1:-1]
+        area, begun = area + own, begun or bool(predicted)
+    yield f"]{last.replace('{}', _dump(_predicted(area)))}\n]}}\n"
 
 
 def plan_to_geojson(plan: FloorPlan) -> Json:
     """The plan as a FeatureCollection of plain Python values."""
-    polygons = matched([r.polygon for r in plan.regions]) if plan.regions else []
+    polygons = _outlines(plan)
+    parts = list(_speculated(plan, polygons))
+    rings = [ring for predicted, _ in parts for ring in _rings(predicted)]
+    last = _feature("speculated", _multipolygon(rings), _predicted(sum(own for _, own in parts)))
+    return {"type": "FeatureCollection", "floorcast": _head(plan), "features": [*_seen(plan, polygons), last]}
+
+
+def _outlines(plan: FloorPlan) -> list[Any]:
+    return matched([r.polygon for r in plan.regions]) if plan.regions else []
+
+
+def _multipolygon(coordinates: list[Any]) -> Json:
+    return {"type": "MultiPolygon", "coordinates": coordinates}
+
+
+def _seen(plan: FloorPlan, polygons: list[Any]) -> list[Json]:
+    """All features but that of what is predicted."""
     features = _regions(plan, polygons)
     features += [_door(plan, door) for door in plan.doors]
     planes = [plane for plane in plan.planes if plane.by_hand != "hidden"]
@@ -70,8 +101,7 @@ def plan_to_geojson(plan: FloorPlan) -> Json:
     features += [_segment(s, line) for s, line in zip(plan.segments, lines[len(planes) :], strict=True)]
     for number, wing in enumerate(plan.wings, start=1):
         features += _of_wing(plan, wing, number)
-    features.append(_speculated(plan, polygons))
-    return {"type": "FeatureCollection", "floorcast": _head(plan), "features": features}
+    return features
 
 
 def _dump(value: Any) -> str:
@@ -229,27 +259,36 @@ def _segment(segment: LayoutSegment, line: Json) -> Json:
     return _feature(segment.id, line, properties)
 
 
-def _speculated(plan: FloorPlan, polygons: list[Any]) -> Json:
-    """Predicted space, clipped to just inside the regions, so that no rounding lets it out.
+def _predicted(area: float) -> Json:
+    return {"kind": "speculated", "area_m2": _metres(area)}
 
-    Piece by piece, by region: the intersection of all with all takes the square of how many there are.
+
+def _speculated(plan: FloorPlan, polygons: list[Any]) -> Iterator[tuple[list[Any], float]]:
+    """Predicted space, clipped to just inside the regions, so that no rounding lets it out: polygons and m2.
+
+    Piece by piece, by region: the intersection of all with all takes the square of how many there are. Some
+    regions at a time: there are hundreds of pieces in each.
     """
     inside = shapely.buffer(np.array(polygons, dtype=object), -INSET, join_style="mitre")
-    pieces = shapely.get_parts(plan.speculated())
-    region, piece = shapely.STRtree(pieces).query(inside, predicate="intersects")
-    order = np.lexsort((piece, region))
-    clipped = _only_polygons(shapely.intersection(pieces[piece[order]], inside[region[order]]))
-    area = shapely.area(clipped)
-    moved = rounded(clipped[area > INSET], plan.to_world, DECIMALS)
-    whole = shapely.is_valid(np.array(moved, dtype=object)).tolist()
-    valid = [
+    tree = shapely.STRtree(shapely.get_parts(plan.speculated()))
+    for first in range(0, len(inside), TOGETHER):
+        some = inside[first : first + TOGETHER]
+        region, piece = tree.query(some, predicate="intersects")
+        order = np.lexsort((piece, region))
+        both = shapely.intersection(tree.geometries[piece[order]], some[region[order]])
+        clipped = _only_polygons(both)
+        area = shapely.area(clipped)
+        yield _whole(rounded(clipped[area > INSET], plan.to_world, DECIMALS)), sum(area.tolist())
+
+
+def _whole(polygons: list[Any]) -> list[Any]:
+    """The polygons, valid ones in place of those that rounding has broken."""
+    valid = shapely.is_valid(np.array(polygons, dtype=object)).tolist()
+    return [
         q
-        for p, fine in zip(moved, whole, strict=True)
+        for p, fine in zip(polygons, valid, strict=True)
         for q in ([p] if fine else _only_polygons(shapely.make_valid(p)).tolist())
     ]
-    properties = {"kind": "speculated", "area_m2": _metres(sum(area.tolist()))}
-    coordinates = _rings(valid)
-    return _feature("speculated", {"type": "MultiPolygon", "coordinates": coordinates}, properties)
 
 
 def _only_polygons(geometry: Any) -> NDArray[np.object_]:

@@ -78,18 +78,28 @@ def occupancy(plan: FloorPlan, raster: MapRaster, predicted: bool) -> NDArray[np
 
 
 def _seen(plan: FloorPlan, raster: MapRaster) -> NDArray[np.uint8]:
-    ny, nx = raster.shape
+    """Strip by strip: the places of all cells of a large site took 100 bytes a cell."""
+    from floorplan_core.geometry.columns import strips  # kernels: not for finding the exporter
+
+    states = np.full(raster.shape, UNOBSERVED, dtype=np.uint8)
+    for first, last in strips(*raster.shape):
+        _see(plan, raster, first, states[first:last])
+    return states
+
+
+def _see(plan: FloorPlan, raster: MapRaster, first: int, out: NDArray[np.uint8]) -> None:
+    """Set the rows of the raster from ``first`` on, ``out``, to what the plan holds at their centres."""
+    ny, nx = out.shape
     c, s = np.cos(raster.yaw), np.sin(raster.yaw)
-    x, y = np.meshgrid((np.arange(nx) + 0.5) * raster.cell, (np.arange(ny) + 0.5) * raster.cell)
+    rows = np.arange(first, first + ny)
+    x, y = np.meshgrid((np.arange(nx) + 0.5) * raster.cell, (rows + 0.5) * raster.cell)
     world = np.column_stack([c * x.ravel() - s * y.ravel(), s * x.ravel() + c * y.ravel()]) + raster.origin
     grid = plan.grid
     T = plan.manhattan_from_world
     local = world @ T[:2, :2].T + T[:2, 3]
     ix, iy = np.floor((local - grid.origin) / grid.cell).astype(np.int64).T
     inside = (ix >= 0) & (iy >= 0) & (ix < grid.states.shape[1]) & (iy < grid.states.shape[0])
-    states = np.full(nx * ny, UNOBSERVED, dtype=np.uint8)
-    states[inside] = grid.states[iy[inside], ix[inside]]
-    return states.reshape(ny, nx)
+    out.reshape(-1)[inside] = grid.states[iy[inside], ix[inside]]
 
 
 def _header(raster: MapRaster, image: str) -> str:

@@ -23,6 +23,7 @@ IMPERIAL_SCALES = {  # as architects and, beyond 1/32 inch, engineers have them 
 IMPERIAL_PAPERS: Papers = (
     ("Letter", 215.9, 279.4), ("Tabloid", 279.4, 431.8), ("ANSI C", 431.8, 558.8), ("ANSI D", 558.8, 863.6),
 )  # fmt: skip
+SMALL = 600  # scale, beyond which lines are thinner: 1:500, or 1" = 50'
 LARGEST = 1  # of the papers: the largest that an office prints; a coarser scale comes before a larger one
 MARGIN = 13.0
 DIMENSIONS = 18.0  # room for two rows of dimensions on the left and at the top
@@ -52,6 +53,11 @@ class Sheet:
     def mm(self) -> float:
         """Millimetres of paper for a metre of building."""
         return 1000.0 / self.scale
+
+    @property
+    def pen(self) -> float:
+        """Width of the lines over the usual one: thinner where doors would be blots otherwise."""
+        return min(1.0, SMALL / self.scale)
 
     @property
     def paper(self) -> str:

@@ -152,22 +152,23 @@ def _draw_walls(canvas: SvgCanvas, sheet: Sheet, walls: Poche) -> None:
             id="walls-guessed",
             fill="url(#guessed-wall)",
             stroke=palette.WALL,
-            stroke_width=FINE,
-            stroke_dasharray="1.1 0.7",
+            stroke_width=FINE * sheet.pen,
+            stroke_dasharray=_dashes(sheet, 1.1, 0.7),
         )
         canvas.area(
             sheet.geometry(_polygons(walls.observed)),
             id="walls-observed",
             fill=palette.WALL,
             stroke=palette.WALL,
-            stroke_width=OUTLINE / 2,
+            stroke_width=OUTLINE / 2 * sheet.pen,
         )
 
 
 def _draw_doors(
     canvas: SvgCanvas, sheet: Sheet, walls: Poche, swung: list[tuple[Leaf, ...]], style: DrawingStyle
 ) -> None:
-    with canvas.group(id="doors", fill="none", stroke=palette.DOOR.accent, stroke_width=FINE):
+    fine = FINE * sheet.pen
+    with canvas.group(id="doors", fill="none", stroke=palette.DOOR.accent, stroke_width=fine):
         for opening, made in zip(walls.openings, swung, strict=True):
             with canvas.group(door_title(opening.door, style)):
                 canvas.area(sheet.geometry(opening.polygon), fill=palette.DOOR.tint, stroke="none")
@@ -188,13 +189,20 @@ def _draw_faces(canvas: SvgCanvas, sheet: Sheet, opening: Opening, dashed: bool)
     page = sheet.to_page(opening.faces.reshape(4, 2)).tolist()
     for a, b in (page[:2], page[2:]):
         canvas.line(
-            a, b, stroke_dasharray="1.2 0.8" if dashed else None, stroke_width=2 * FINE if dashed else None
+            a,
+            b,
+            stroke_dasharray=_dashes(sheet, 1.2, 0.8) if dashed else None,
+            stroke_width=2 * FINE * sheet.pen if dashed else None,
         )
+
+
+def _dashes(sheet: Sheet, line: float, gap: float) -> str:
+    return f"{number(line * sheet.pen)} {number(gap * sheet.pen)}"
 
 
 def _draw_leaf(canvas: SvgCanvas, sheet: Sheet, leaf: Leaf) -> None:
     hinge, tip, closed = sheet.to_page(np.array([leaf.hinge, leaf.tip, leaf.closed])).tolist()
-    canvas.line(hinge, tip, stroke_width=LEAF)
+    canvas.line(hinge, tip, stroke_width=LEAF * sheet.pen)
     if leaf.shut:
         return
     radius = number(float(np.hypot(tip[0] - hinge[0], tip[1] - hinge[1])))

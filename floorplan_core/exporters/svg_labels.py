@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,17 +29,40 @@ def place_labels(
 ) -> list[Placed]:
     """A label for each region; ``swept`` are polygons on the page, doors and their swing: text keeps off."""
     sectors = shapely.STRtree(swept)
-    return [_place(region, sheet.geometry(region.polygon), sectors, style) for region in plan.regions]
+    floors = [sheet.geometry(region.polygon) for region in plan.regions]
+    placed = [_place(r, floor, sectors, style) for r, floor in zip(plan.regions, floors, strict=True)]
+    return _apart(placed, floors)
+
+
+def _apart(labels: list[Placed], floors: Sequence[Any]) -> list[Placed]:
+    """The labels; those that fit nowhere and lie on others are as small as their ``floors`` have room for.
+
+    A lone number that reaches over the walls of a closet is easier to read; at 1:2000 nearly all do.
+    """
+    loose = [k for k, label in enumerate(labels) if not label.fits]
+    boxes = np.array([_ground(label, 0.0) for label in labels], dtype=object)
+    one, other = shapely.STRtree(boxes).query(boxes[loose], predicate="intersects")
+    for k in {loose[i] for i, j in zip(one.tolist(), other.tolist(), strict=True) if loose[i] != j}:
+        labels[k] = _shrunk(labels[k], floors[k])
+    return labels
+
+
+def _shrunk(label: Placed, floor: Any) -> Placed:
+    """The label in the circle around its spot that touches the walls."""
+    room = 2 * shapely.distance(shapely.Point(label.x, label.y), floor.boundary)
+    share = min(1.0, room / float(np.hypot(*block_size(label.lines))))
+    return replace(label, lines=tuple(replace(line, size=share * line.size) for line in label.lines))
 
 
 def label_ground(labels: Sequence[Placed]) -> Any:
     """The ground that the labels cover on the page, with a little air."""
-    boxes = []
-    for label in labels:
-        width, height = block_size(label.lines)[:: -1 if label.turned else 1]
-        w, h = width / 2 + AIR, height / 2 + AIR
-        boxes.append(shapely.box(label.x - w, label.y - h, label.x + w, label.y + h))
-    return shapely.union_all(boxes)
+    return shapely.union_all([_ground(label, AIR) for label in labels])
+
+
+def _ground(label: Placed, air: float) -> Any:
+    width, height = block_size(label.lines)[:: -1 if label.turned else 1]
+    w, h = width / 2 + air, height / 2 + air
+    return shapely.box(label.x - w, label.y - h, label.x + w, label.y + h)
 
 
 def draw_labels(canvas: SvgCanvas, labels: Sequence[Placed]) -> None:

@@ -21,6 +21,7 @@ Int = NDArray[np.int64]
 
 WIDE = 20_000.0  # m2 of a site's bounding box, from which islands are looked for
 _TOO_WIDE = 100_000.0  # m2: such a site may be refused for its size, so that it is rid of stray points
+_MOST = 0.9  # of a site's box that its one building fills: nothing there is worth leaving out
 _SITE = 2_000_000.0  # m2 of a site's box: its occupancy grid takes 400 MB then, and a larger site is refused
 _SQUARE = 5.0  # m, side of the squares in which surfels are counted
 _STRAY = 20  # surfels of a square: fewer bridge no gap
@@ -60,15 +61,18 @@ def find_islands(surfels: SurfelMap, frame: ManhattanFrame) -> tuple[Island, ...
     """The islands, most surfels first, ties to the smaller x.
 
     () where there are not two of them, or they lie farther apart than one plan can show; one where only stray
-    points make the site wider than a plan can be.
+    points make the site wider than a plan can be. A site of one piece is not taken out of itself: its surfels
+    would be there twice.
     """
     squares, counts = _squares(surfels, frame)
-    too_wide, dense = _area(squares) > _TOO_WIDE, counts >= _STRAY
+    whole, dense = _area(squares), counts >= _STRAY
     squares, counts = squares[dense], counts[dense]
     label = _connected(squares)
     total = np.bincount(label, weights=counts).astype(np.int64)
     kept = [k for k in np.argsort(-total, kind="stable").tolist() if total[k] >= _LEAST]
-    if len(kept) < (1 if too_wide else 2) or _area(squares[np.isin(label, kept)]) > _SITE:
+    area = _area(squares[np.isin(label, kept)])
+    strayed = whole > _TOO_WIDE and area < _MOST * whole
+    if len(kept) < (1 if strayed else 2) or area > _SITE:
         return ()
     return tuple(Island(squares[label == k], int(total[k]), frame.rotation[:2]) for k in kept)
 
@@ -77,14 +81,30 @@ def _squares(surfels: SurfelMap, frame: ManhattanFrame) -> tuple[Int, Int]:
     """Numbers of the squares that hold surfels, rising, and how many each holds."""
     level, found = frame.rotation[:2].T, []
     for piece in surfels.pieces(_PIECE):
-        found.append(np.unique(_number(piece.centroid @ level), return_counts=True))
+        found.append(_counted(np.floor(piece.centroid @ level / _SQUARE).astype(np.int64)))
     numbers, place = np.unique(np.concatenate([f[0] for f in found]), return_inverse=True)
     counts = np.bincount(place, weights=np.concatenate([f[1] for f in found]), minlength=len(numbers))
     return numbers, counts.astype(np.int64)
 
 
+def _counted(index: Int) -> tuple[Int, Int]:
+    """Numbers of the squares among (N, 2), rising, and how often each is there; without sorting where they
+    are close together: that is most of the time."""
+    low, span = index.min(axis=0), np.ptp(index, axis=0) + 1
+    if span[0] * span[1] > _PIECE:
+        return np.unique(_numbers(index), return_counts=True)
+    counts = np.bincount((index[:, 0] - low[0]) * span[1] + index[:, 1] - low[1])
+    there = np.flatnonzero(counts)
+    return _numbers(np.column_stack(np.divmod(there, span[1])) + low), counts[there]
+
+
 def _number(xy: Float) -> Int:
-    index = np.floor(xy / _SQUARE).astype(np.int64) + _BIAS
+    return _numbers(np.floor(xy / _SQUARE).astype(np.int64))
+
+
+def _numbers(index: Int) -> Int:
+    """(N,) the squares (N, 2), counted along x and y, in one word each."""
+    index = index + _BIAS
     return np.asarray((index[:, 0] << _BITS) | index[:, 1])
 
 

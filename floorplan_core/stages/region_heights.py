@@ -45,15 +45,20 @@ def measure_heights(
     levels = halves.sum(axis=0)
     least = _LEAST / evidence.surfel**2
     measured = (replace(r, height=_ceiling(row, least)) for r, row in zip(regions, levels, strict=True))
-    return tuple(replace(r, rise=_rise(labels == k, evidence, grid)) for k, r in enumerate(measured))
+    return tuple(replace(r, rise=_rise(r, k, labels, evidence, grid)) for k, r in enumerate(measured))
 
 
-def _rise(cells: NDArray[np.bool_], evidence: Evidence, grid: OccupancyGrid) -> float:
-    """Metres from the storey's floor to that of most of the ``cells`` (ny, nx)."""
-    if evidence.floors is None or not cells.any():
+def _rise(
+    region: Region, number: int, labels: NDArray[np.int32], evidence: Evidence, grid: OccupancyGrid
+) -> float:
+    """Metres from the storey's floor to that of most of the region's cells, which have its ``number``."""
+    if evidence.floors is None:
         return 0.0
-    iy, ix = np.nonzero(cells)
-    at = grid.origin + grid.cell * (np.column_stack([ix, iy]) + 0.5)
+    (rows, columns), _ = polygon_window(region.polygon, grid.origin, grid.cell, labels.shape)
+    iy, ix = np.nonzero(labels[rows, columns] == number)
+    if not len(iy):
+        return 0.0
+    at = grid.origin + grid.cell * (np.column_stack([ix + columns.start, iy + rows.start]) + 0.5)
     return float(np.median(evidence.floors.at(at))) - evidence.frame.floor_z
 
 

@@ -13,9 +13,11 @@ import pytest
 import shapely
 
 from floorplan_core.exporters.door_symbols import leaves
+from floorplan_core.exporters.placement import Placed, block_size
 from floorplan_core.exporters.sheet import SCALES, lay_out
-from floorplan_core.exporters.svg import SvgExporter, svg_text
+from floorplan_core.exporters.svg import SvgExporter, drawn_bounds, svg_text
 from floorplan_core.exporters.svg_canvas import number, printable
+from floorplan_core.exporters.svg_labels import place_labels
 from floorplan_core.exporters.walls import poche, predicted_floor
 from tests.factories import DoorSpec, RoomSpec, l_corridor, make_plan, office, small_flat
 
@@ -202,6 +204,31 @@ def test_scale_is_the_finest_that_fits(width: float, height: float) -> None:
         assert short <= 297
         assert long <= 420
     assert all(0 < x < sheet.width and 0 < y < sheet.height for x, y in sheet.blocks)
+
+
+def test_numbers_of_a_site_do_not_lie_on_each_other() -> None:
+    """At 1:2000 no number fits its room at the usual size; there each is as small as it has to be."""
+    pitch = 2.4 + 0.15
+    rooms = [RoomSpec((k * pitch, 0, k * pitch + 2.4, 3.0)) for k in range(101, 109)]
+    far = RoomSpec((500.0, 400.0, 504.0, 403.0))
+    plan = make_plan([*rooms, far], [])
+    plan = replace(plan, regions=tuple(replace(r, name=str(1000 + k)) for k, r in enumerate(plan.regions)))
+    walls = poche(plan)
+    sheet = lay_out(drawn_bounds(plan, walls))
+    assert sheet.scale == 2000
+    placed = place_labels(sheet, plan, [])
+    boxes = [shapely.box(*_box(label)) for label in placed]
+    floors = [sheet.geometry(region.polygon) for region in plan.regions]
+    assert all(floor.covers(box) for floor, box in zip(floors[:-1], boxes[:-1], strict=True))
+    assert not any(a.intersects(b) for k, a in enumerate(boxes) for b in boxes[:k])
+    assert all(label.lines[0].text == region.name for label, region in zip(placed, plan.regions, strict=True))
+    alone = place_labels(sheet, replace(plan, regions=plan.regions[-1:]), [])[0]
+    assert alone == placed[-1] and alone.lines[0].size > 2 * placed[0].lines[0].size
+
+
+def _box(label: Placed) -> tuple[float, float, float, float]:
+    width, height = block_size(label.lines)[:: -1 if label.turned else 1]
+    return label.x - width / 2, label.y - height / 2, label.x + width / 2, label.y + height / 2
 
 
 def test_empty_plan_still_draws() -> None:
