@@ -18,6 +18,7 @@ from floorcast_app.events import Event
 from floorcast_app.interface import Interface, NoInterface
 from floorcast_app.item_bounds import bring_into_view, change_plan
 from floorcast_app.jobs import Jobs, Post
+from floorcast_app.layers.partial import InWorld
 from floorcast_app.point_store import PointStore
 from floorcast_app.preferences import Preferences
 from floorcast_app.run_replay import ShownStorey, Snapshot
@@ -80,7 +81,8 @@ class Workbench:
         self.toolbox = ToolBox(self)  # the tool in hand, one for all plan panes
         self.document.changed.connect(self._document_changed)
         self.selection.zoom_asked.connect(lambda item: bring_into_view(self, item))
-        self.jobs.stage_done.connect(lambda stage, seconds, result: self.partial.emit(stage, result))
+        in_world = InWorld()
+        self.jobs.stage_done.connect(lambda stage, _, result: self.partial.emit(stage, in_world(result)))
         self.jobs.ended.connect(self._job_ended)
         self.jobs.warned.connect(self._warned)
 

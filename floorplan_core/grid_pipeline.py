@@ -55,14 +55,13 @@ from floorplan_core.stages.grid_map_spaces import (
     SpaceProblem,
     disjoint,
     explained,
-    in_reading_order,
     join_candidates,
     join_covers,
     space_problems,
 )
 from floorplan_core.stages.grid_map_walls import Boundary, find_boundary, wall_planes, wall_segments
 from floorplan_core.stages.labels import PaperClassifier, label_regions
-from floorplan_core.stages.region_names import RegionNames
+from floorplan_core.stages.region_names import RegionNames, in_reading_order
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.speculation import cover_the_rest

@@ -22,6 +22,7 @@ from floorplan_core.model import (
 )
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.model.quarter_turns import quarters_to_world
 from floorplan_core.observer import Observer
 from floorplan_core.stages.blockers import blockers, close_beside_doors, close_corners, remove_beams
 from floorplan_core.stages.candidates import pair_planes
@@ -37,6 +38,7 @@ from floorplan_core.stages.layout_segments import find_segments
 from floorplan_core.stages.narrowings import find_openings
 from floorplan_core.stages.occupancy import slice_map
 from floorplan_core.stages.region_heights import measure_heights
+from floorplan_core.stages.region_names import in_reading_order
 from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.slanted_walls import standing_cells
@@ -131,10 +133,13 @@ def lay_out(
     )
     doors = (*doors, *feet)
     found = (planes, segments, doors, grid)
+    quarters = quarters_to_world(evidence.frame)
     tall = stage.correct("standing", lambda: standing_cells(evidence, grid), evidence, grid)
     regions = stage(
         "regions",
-        lambda: build_regions(cover, *found, config.regions, flights, evidence.inferred, tall),
+        lambda: in_reading_order(
+            build_regions(cover, *found, config.regions, flights, evidence.inferred, tall), quarters
+        ),
         *(cover, *found, config.regions, flights, evidence.inferred, tall),
     )
     regions, planes, remarks = stage.correct(

@@ -14,9 +14,11 @@ from floorplan_core.layout import Layout, lay_out
 from floorplan_core.layout_wings import counted, part_layout, wing_of
 from floorplan_core.model import LayoutSegment, OccupancyGrid, Region, WallPoints, Wing
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.model.quarter_turns import quarters_to_world
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, Said
 from floorplan_core.stages.corrections_islands import said_of_buildings
+from floorplan_core.stages.region_names import in_reading_order
 from floorplan_core.stages.wall_points import thin_wall_points
 from floorplan_core.stages.wing_joins import join_doors, named
 from floorplan_core.stages.wings import Part
@@ -53,10 +55,10 @@ def add_islands(
     remarks += Remarks(warnings=(_APART.format(len(made)),))
     grids = [each.grid for each in made]
     uncovered = [replace(each.grid, universe=each.cover.uncovered) for each in made]
-    grid = site_grid(grids)
+    grid, quarters = site_grid(grids), quarters_to_world(parts[0].evidence.frame)
     return replace(
         main,
-        regions=tuple(counted(r, grid) for r in _regions(made)),
+        regions=tuple(counted(r, grid) for r in _regions(made, quarters)),
         doors=join_doors([part_layout(each, 0.0) for each in made]),
         grid=grid,
         cover=replace(main.cover, uncovered=site_grid(uncovered).universe),
@@ -92,13 +94,11 @@ def site_points(seen: Sequence[Evidence], segments: Sequence[LayoutSegment]) -> 
     return WallPoints(*(np.concatenate([getattr(f, n) for f in found]) for n in ("xy", "height", "facing")))
 
 
-def _regions(made: Sequence[Layout]) -> tuple[Region, ...]:
+def _regions(made: Sequence[Layout], quarters: int) -> tuple[Region, ...]:
     """All regions, in reading order."""
     regions = [
         replace(r, sides=tuple(replace(s, plane=named(s.plane, k)) for s in r.sides))
         for k, each in enumerate(made)
         for r in each.regions
     ]
-    middles = [r.polygon.representative_point() for r in regions]
-    order = sorted(range(len(regions)), key=lambda k: (-round(middles[k].y, 1), middles[k].x))
-    return tuple(replace(regions[i], id=f"r{k + 1}", name=str(k + 1)) for k, i in enumerate(order))
+    return in_reading_order(regions, quarters)

@@ -17,8 +17,9 @@ from floorplan_core.model.corrections import RejectDoor
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import regions_mask
 from floorplan_core.model.layout import turned
+from floorplan_core.model.quarter_turns import quarters_to_world
 from floorplan_core.observer import Observer
-from floorplan_core.stages.corrections import Remarks, Said, said_of_part
+from floorplan_core.stages.corrections import Placed, Remarks, Said, said_of_part
 from floorplan_core.stages.corrections_regions import SHAPED, opened
 from floorplan_core.stages.region_heights import measure_heights
 from floorplan_core.stages.regions import count_cells
@@ -70,14 +71,16 @@ def add_wings(
         wings.append(wing_of(made, part.turn, len(wings) + 1))
         cells.append(same_floor(part.cells, part.evidence, whole, -part.turn))
         machine = tuple((named(ident, len(wings)), text) for ident, text in made.remarks.machine)
-        remarks += Remarks(machine, tuple(f"In the wing: {text}" for text in made.remarks.warnings))
+        remarks += Remarks(machine, tuple(map(_in_the_wing, made.remarks.warnings)))
         remarks += Remarks(
             warnings=(
                 f"A wing of {area:.0f} m2 stands at {degrees:.1f} degrees to the rest: it is planned in a "
                 "frame of its own.",
             )
         )
-    regions, grid = join_regions(found, config.regions.min_area), join_grids(main.grid, found[1:], cells)
+    quarters = quarters_to_world(whole.frame)
+    regions = join_regions(found, config.regions.min_area, quarters)
+    grid = join_grids(main.grid, found[1:], cells)
     regions, merged, shaped = correct_joined_shapes(
         regions, say.shapes, turns, walls_of(found), grid, config.regions.min_area
     )
@@ -101,6 +104,11 @@ def _measured(regions: tuple[Region, ...], seen: Evidence, grid: OccupancyGrid) 
     measured = measure_heights(tuple(others.values()), seen, grid) if others else ()
     new = {r.id: r for r in measured}
     return tuple(new.get(r.id, r) for r in regions)
+
+
+def _in_the_wing(text: str) -> str:
+    said = f"In the wing: {text}"
+    return text.within(said) if isinstance(text, Placed) else said
 
 
 def _opened(planes: tuple[LayoutPlane, ...], merged: tuple[Any, ...], turn: float) -> tuple[LayoutPlane, ...]:

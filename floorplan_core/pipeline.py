@@ -25,7 +25,6 @@ from floorplan_core.layout_islands import site_points
 from floorplan_core.layout_parts import add_parts, askew_of, said_of_first
 from floorplan_core.memory import fits, require_memory
 from floorplan_core.model import (
-    Door,
     FloorPlan,
     LocalFrame,
     ManhattanFrame,
@@ -39,6 +38,7 @@ from floorplan_core.model import (
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
+from floorplan_core.model.quarter_turns import quarters_to_world, turned_plan
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, in_plan
@@ -157,14 +157,12 @@ class FloorPlanner:
         shown = (*segments, *(s for wing in wings for s in wing.segments))
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
         regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
-        regions, doors = self._named(self._some(regions), doors, storey, frame)
-        regions, remarks = correct_names(regions, say.names)
-        said += remarks + lost_doors(made.doors, doors)
+        said += lost_doors(made.doors, doors)
         seen = [part.evidence for part in parts if part.apart] or [evidence]
         points = stage("regions", lambda: site_points(seen, shown), evidence, shown)
 
         self.observer.check_cancelled()
-        return FloorPlan(
+        plan = FloorPlan(
             frame=frame,
             local_frame=replace(self.local_frame, shift=self.local_frame.shift + self.map.own.centre),
             segments=segments,
@@ -173,19 +171,17 @@ class FloorPlanner:
             grid=grid,
             candidates=made.candidates,
             cover=cover,
-            regions=regions,
+            regions=self._some(regions),
             wall_points=points,
             trajectory=np.concatenate([each.path for each in seen]),
             source=self.source,
             point_count=int(evidence.count.sum()) if self._is_one_of_many() else self.map.surfels.points,
             config=config,
-            warnings=self._warnings(cover, grid, said if wings else said + Remarks(warnings=misfit(frame))),
             seconds=stage.seconds,
             storey=storey,
-            corrected=by_hand((*planes, *(p for w in wings for p in w.planes)), doors, regions),
-            machine=said.machine_said(),
             wings=wings,
         )
+        return self._in_world(plan, said, corrections)
 
     def _frame_and_storeys(self) -> tuple[ManhattanFrame, tuple[Storey, ...]]:
         """The frame of the whole survey, and its storeys in it; found once for the points so far."""
@@ -305,18 +301,34 @@ class FloorPlanner:
                 f"{seen.size:g} m; check the unit (--set input.unit=...) or give more scans."
             )
 
-    def _named(
-        self, regions: tuple[Region, ...], doors: tuple[Door, ...], storey: int, frame: ManhattanFrame
-    ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
+    def _in_world(self, own: FloorPlan, said: Remarks, corrections: Sequence[Correction]) -> FloorPlan:
+        """The plan, made in the survey's own quadrant, along the axes nearest to the world's, with all that
+        is said of it, and with the names that its regions had before."""
+        quarters = quarters_to_world(own.frame)
+        plan = self._named(turned_plan(own, quarters))
+        regions, remarks = correct_names(plan.regions, in_plan(corrections, plan.frame).names)
+        said = said.turned(quarters) + remarks
+        if not plan.wings:
+            said += Remarks(warnings=misfit(plan.frame))
+        return replace(
+            plan,
+            regions=regions,
+            warnings=self._warnings(plan.cover, plan.grid, said),
+            corrected=by_hand(plan.all_planes, plan.doors, regions),
+            machine=said.machine_said(),
+        )
+
+    def _named(self, plan: FloorPlan) -> FloorPlan:
         """Names that persist by place: in the local frame, since that of the plan changes as more is seen."""
         import shapely
 
         def local(xy: Float) -> Float:
-            return (frame.from_manhattan(xy) + self.map.own.centre)[:, :2]
+            return (plan.frame.from_manhattan(xy) + self.map.own.centre)[:, :2]
 
-        placed = tuple(replace(r, polygon=shapely.transform(r.polygon, local)) for r in regions)
-        named, doors = self.names(placed, doors, storey)
-        return tuple(replace(r, id=n.id, name=n.name) for r, n in zip(regions, named, strict=True)), doors
+        placed = tuple(replace(r, polygon=shapely.transform(r.polygon, local)) for r in plan.regions)
+        named, doors = self.names(placed, plan.doors, plan.storey)
+        regions = tuple(replace(r, id=n.id, name=n.name) for r, n in zip(plan.regions, named, strict=True))
+        return replace(plan, regions=regions, doors=doors)
 
     def _some(self, regions: tuple[Region, ...]) -> tuple[Region, ...]:
         """The regions; at least one there must be."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from floorplan_core.config import Config
 from floorplan_core.errors import NoPlanError
 from floorplan_core.model import ManhattanFrame, Reconstruction, Trajectory
+from floorplan_core.model.quarter_turns import quarters_to_world, turned_frame
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
@@ -146,6 +147,7 @@ def _directions(seen: SurveyMap, config: Config) -> tuple[ManhattanFrame | None,
     loose = config.frame.model_copy(update={"min_support": 0.0})
     try:
         frame = seen.frame(loose)
+        frame = turned_frame(frame, quarters_to_world(frame))
     except NoPlanError as error:
         return None, str(error), ()
     own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)

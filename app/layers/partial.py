@@ -8,9 +8,23 @@ import numpy as np
 
 from floorcast_app.layers.free_space import FreeSpaceLayer, free_space_of
 from floorcast_app.layers.planes import PlanesLayer, plane_shape
-from floorplan_core.model import LayoutPlane, OccupancyGrid
+from floorplan_core.model import LayoutPlane, ManhattanFrame, OccupancyGrid
+from floorplan_core.model.quarter_turns import quarters_to_world, turned_result
 
 Bounds = tuple[float, float, float, float]
+
+
+class InWorld:
+    """Turns what stages tell, which lies in the survey's own quadrant, as the whole plan will be turned."""
+
+    def __init__(self) -> None:
+        self._quarters = 0
+
+    def __call__(self, result: object) -> object:
+        """``result`` in the axes of the plan to come; a frame says by how much the next ones turn."""
+        if isinstance(result, ManhattanFrame):
+            self._quarters = quarters_to_world(result)
+        return turned_result(result, self._quarters)
 
 
 def partial_layer(result: object) -> tuple[str, PlanesLayer | FreeSpaceLayer, Bounds] | None:

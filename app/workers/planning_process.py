@@ -27,7 +27,7 @@ from floorcast_app.run_replay import ShownStorey, snapshots
 from floorcast_app.workers import wire
 from floorplan_core import errors
 from floorplan_core.config import Config
-from floorplan_core.model import LayoutPlane, OccupancyGrid, PointChunk, Reconstruction
+from floorplan_core.model import LayoutPlane, ManhattanFrame, OccupancyGrid, PointChunk, Reconstruction
 from floorplan_core.model.corrections import Correction, Point
 from floorplan_core.observer import CancelToken, Observer
 from floorplan_core.session import Names, PlanningSession
@@ -284,7 +284,7 @@ def _is_shown(result: object) -> bool:
     """True for what the panes show of a plan that is being made (see ``floorcast_app.layers.partial``)."""
     if isinstance(result, tuple):
         return bool(result) and all(isinstance(part, LayoutPlane) for part in result)
-    return isinstance(result, OccupancyGrid)
+    return isinstance(result, OccupancyGrid | ManhattanFrame)  # the frame says how the others are turned
 
 
 def _public_class(error: errors.FloorPlanError) -> str:

@@ -15,12 +15,9 @@ from numpy.typing import NDArray
 Float = NDArray[np.float64]
 
 
-def moved(points: NDArray[Any], matrix: Float, offset: Float) -> NDArray[np.float32]:
-    """(N, 3) float32 ``matrix @ point + offset`` of (N, 3) points, computed in float64.
-
-    What is not finite, or too large for 32 bits, comes out as no finite number.
-    """
-    out = np.empty((len(points), 3), dtype=np.float32)
+def moved(points: NDArray[Any], matrix: Float, offset: Float) -> Float:
+    """(N, 3) ``matrix @ point + offset`` of (N, 3) points; what is not finite stays so."""
+    out = np.empty((len(points), 3))
     native = points if points.dtype.isnative else points.astype(points.dtype.newbyteorder("="))
     _move(native, np.ascontiguousarray(matrix, dtype=np.float64), np.asarray(offset, dtype=np.float64), out)
     return out

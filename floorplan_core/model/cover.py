@@ -26,6 +26,7 @@ class CandidateSet:
     y_minus: Float  # sorted offsets of south-facing planes
     families: NDArray[np.int32]  # (F, 6) i0, j0, first and end of i1, first and end of j1; disjoint
     enumerated: int = 0  # |R| = |Px| * |Py| before pruning
+    quarters: int = 0  # quarter turns, counter-clockwise, from the axes of the offsets to those of the plan
 
     def __len__(self) -> int:
         return int(self.family_sizes().sum())
@@ -45,10 +46,11 @@ class CandidateSet:
 
     def bounds(self) -> Float:
         """(K, 4) x0, y0, x1, y1 in metres, manhattan frame, of every rectangle."""
+        from floorplan_core.model.quarter_turns import turned_boxes
+
         i = self.index()
-        return np.column_stack(
-            [self.x_plus[i[:, 0]], self.y_plus[i[:, 2]], self.x_minus[i[:, 1]], self.y_minus[i[:, 3]]]
-        )
+        own = [self.x_plus[i[:, 0]], self.y_plus[i[:, 2]], self.x_minus[i[:, 1]], self.y_minus[i[:, 3]]]
+        return turned_boxes(np.column_stack(own), self.quarters)
 
 
 @dataclass(frozen=True)

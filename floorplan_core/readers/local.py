@@ -1,4 +1,4 @@
-"""File coordinates to local ones: metres, z up, no large offset; float32 where that keeps millimetres."""
+"""File coordinates to local ones: metres, z up, no large offset; float32 where the file has no more."""
 
 from __future__ import annotations
 
@@ -30,10 +30,11 @@ def world_points(points: NDArray[Any], frame: LocalFrame) -> Float:
     return np.asarray(points[:, columns] * factors, dtype=np.float64)
 
 
-def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float | None) -> NDArray[np.float32]:
-    """(N, 3) float32 local coordinates; in float64 where a shift is subtracted or the file has doubles.
+def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float | None) -> NDArray[Any]:
+    """(N, 3) local coordinates: float64 where the file has doubles, a shift is subtracted or a pose is used.
 
-    Else column by column (the rotations that readers make only swap axes).
+    Rounded to float32 some points in 340,000 fell into the next voxel, others for each way to turn a survey
+    (decision 21). Else float32, column by column (the rotations that readers make only swap axes).
     """
     if T_file_sensor is not None:
         return _moved(points, frame, T_file_sensor)
@@ -51,15 +52,15 @@ def local_points(points: NDArray[Any], frame: LocalFrame, T_file_sensor: Float |
     return out
 
 
-def _moved(points: NDArray[Any], frame: LocalFrame, T: Float) -> NDArray[np.float32]:
-    """Points of a sensor's frame: one affine map built in float64, so that float32 sees small numbers."""
+def _moved(points: NDArray[Any], frame: LocalFrame, T: Float) -> Float:
+    """One affine map for turn, unit, axes and shift."""
     from floorplan_core.geometry.affine import moved
 
     matrix = frame.scale * frame.rotation @ T[:3, :3]
     return moved(points, matrix, frame.scale * frame.rotation @ T[:3, 3] - frame.shift)
 
 
-def keep_finite(points: NDArray[np.float32]) -> NDArray[np.bool_] | None:
+def keep_finite(points: NDArray[Any]) -> NDArray[np.bool_] | None:
     """(N,) which points are usable; None where all are (the usual case costs two reductions)."""
     if len(points) == 0:
         return None

@@ -35,6 +35,7 @@ from floorplan_core.model.corrections import (
     SplitRegion,
 )
 from floorplan_core.model.layout import turned
+from floorplan_core.model.quarter_turns import turned_place
 
 WALL_KINDS = (HidePlane, KeepPlane, MovePlane, AddWall)
 DOOR_KINDS = (AcceptDoor, RejectDoor, AddDoor, ResizeDoor)
@@ -47,6 +48,36 @@ Span = tuple[float, float]
 Move = Callable[[Sequence[Point], bool], tuple[Point, ...]]  # places, or directions where True
 
 
+class Placed(str):
+    """A sentence that names places (manhattan frame in which it was said), to be said in other axes, too.
+
+    :param points: the places, each written as ``form`` writes it.
+    """
+
+    points: tuple[Point, ...]
+    form: Callable[[Point], str]
+
+    def __new__(cls, text: str, *points: Point, form: Callable[[Point], str] | None = None) -> Placed:
+        sentence = super().__new__(cls, text)
+        sentence.points, sentence.form = points, form or place
+        return sentence
+
+    def within(self, text: str) -> Placed:
+        """``text``, of which this is a part."""
+        return Placed(text, *self.points, form=self.form)
+
+    def turned(self, quarters: int) -> str:
+        """The sentence in axes turned by so many quarters, counter-clockwise."""
+        text = str(self)
+        for point in self.points:
+            text = text.replace(self.form(point), self.form(turned_place(point, quarters)))
+        return text
+
+
+def _said_turned(text: str, quarters: int) -> str:
+    return text.turned(quarters) if isinstance(text, Placed) else text
+
+
 @dataclass(frozen=True)
 class Remarks:
     """What came of some corrections."""
@@ -56,6 +87,11 @@ class Remarks:
 
     def __add__(self, other: Remarks) -> Remarks:
         return Remarks(self.machine + other.machine, self.warnings + other.warnings)
+
+    def turned(self, quarters: int) -> Remarks:
+        """The same in axes turned by so many quarters."""
+        machine = tuple((ident, _said_turned(text, quarters)) for ident, text in self.machine)
+        return Remarks(machine, tuple(_said_turned(text, quarters) for text in self.warnings))
 
     def machine_said(self) -> dict[str, str]:
         """By id all that the machine had said of a thing, in the order in which it was overruled."""
@@ -168,6 +204,11 @@ def _moved(correction: Any, move: Move) -> Any:
 def place(point: Point) -> str:
     """A point as a sentence names it."""
     return f"({point[0]:.2f}, {point[1]:.2f})"
+
+
+def wall_place(point: Point) -> str:
+    """Where a wall is along its normal, of a point of which the other coordinate is 0."""
+    return f"{point[0] + point[1]:.3f} m"
 
 
 def line_of(start: Point, end: Point) -> tuple[int, float, Span]:

@@ -19,6 +19,7 @@ from floorplan_core.model.corrections import AcceptDoor, AddDoor, Correction, Po
 from floorplan_core.stages.corrections import (
     NOTHING,
     REACH,
+    Placed,
     Remarks,
     Span,
     beyond,
@@ -110,8 +111,8 @@ def _accept(doors: Doors, correction: AcceptDoor, faint: Callable[[], Doors]) ->
         return changed, _said(found)
     found = find_door(faint(), correction.at)
     if found is None:
-        where = place(correction.at)
-        return doors, Remarks(warnings=(f"The door accepted at {where} is not there any more.",))
+        text = f"The door accepted at {place(correction.at)} is not there any more."
+        return doors, Remarks(warnings=(Placed(text, correction.at),))
     known = {d.id for d in doors}
     name = next(f"hf{k}" for k in range(1, len(doors) + 2) if f"hf{k}" not in known)
     return (*doors, replace(_accepted(found), id=name)), NOTHING
@@ -136,13 +137,15 @@ def _change(
     where = place(correction.at)
     if found is None:
         what = "rejected" if isinstance(correction, RejectDoor) else "resized"
-        return doors, planes, Remarks(warnings=(f"The door {what} at {where} is not there any more.",))
+        text = f"The door {what} at {where} is not there any more."
+        return doors, planes, Remarks(warnings=(Placed(text, correction.at),))
     closed = _closed(planes, found)
     if isinstance(correction, RejectDoor):
         return tuple(d for d in doors if d is not found), closed, NOTHING
     start, end = sorted((correction.start[1 - found.axis], correction.end[1 - found.axis]))
     if end - start < NARROWEST:
-        return doors, planes, Remarks(warnings=(f"The door at {where} cannot be {end - start:.2f} m wide.",))
+        text = f"The door at {where} cannot be {end - start:.2f} m wide."
+        return doors, planes, Remarks(warnings=(Placed(text, correction.at),))
     resized = replace(_accepted(found), start=start, end=end, by_hand=found.by_hand or "resized")
     if found.by_hand == "accepted":
         resized = replace(resized, by_hand="resized")
@@ -171,11 +174,12 @@ def _add(
     axis, offset, (start, end) = line_of(correction.start, correction.end)
     where = place(correction.start)
     if end - start < NARROWEST:
-        return doors, planes, Remarks(warnings=(f"The door added at {where} is too narrow for one.",))
+        text = f"The door added at {where} is too narrow for one."
+        return doors, planes, Remarks(warnings=(Placed(text, correction.start),))
     faces = _faces(planes, axis, offset, (start, end), config.max_thickness)
     if not faces:
         problem = f"The door added at {where} is in no wall: there is none within {REACH:g} m."
-        return doors, planes, Remarks(warnings=(problem,))
+        return doors, planes, Remarks(warnings=(Placed(problem, correction.start),))
     ends = [p.offset for p in faces]
     door = Door(
         id=name,
@@ -233,10 +237,11 @@ def lost_doors(before: Doors, doors: Doors) -> Remarks:
     """Doors by hand that join no two regions, and so are none."""
     left = {d.id for d in doors}
     gone = [d for d in before if d.by_hand and d.id not in left]
-    return Remarks(
-        warnings=tuple(
-            f"The door {d.by_hand} by hand at ({d.line().mean(axis=0)[0]:.2f}, "
-            f"{d.line().mean(axis=0)[1]:.2f}) does not lie between two regions, and is left out."
-            for d in gone
-        )
-    )
+    return Remarks(warnings=tuple(map(_between_none, gone)))
+
+
+def _between_none(door: Door) -> Placed:
+    x, y = door.line().mean(axis=0).tolist()
+    where = place((x, y))
+    text = f"The door {door.by_hand} by hand at {where} does not lie between two regions, and is left out."
+    return Placed(text, (x, y))

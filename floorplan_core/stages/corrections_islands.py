@@ -14,7 +14,7 @@ import numpy as np
 
 from floorplan_core.model.corrections import Correction, MergeRegions, Point
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.corrections import NOTHING, Remarks, Said, place
+from floorplan_core.stages.corrections import NOTHING, Placed, Remarks, Said, place
 
 _EXACT = 1e-6  # m, to which distances from two boxes are the same
 
@@ -71,4 +71,5 @@ def _from_surfaces(at: Any, seen: Evidence) -> float:
 def _between(merge: Correction) -> Remarks:
     assert isinstance(merge, MergeRegions)
     where = " and ".join(map(place, merge.at))
-    return Remarks(warnings=(f"The regions at {where} stand in different buildings: they cannot be merged.",))
+    text = f"The regions at {where} stand in different buildings: they cannot be merged."
+    return Remarks(warnings=(Placed(text, *merge.at),))

@@ -26,7 +26,7 @@ from floorplan_core.model.corrections import (
     SplitRegion,
 )
 from floorplan_core.model.layout import turned
-from floorplan_core.stages.corrections import NOTHING, REACH, Remarks, line_of, place, without
+from floorplan_core.stages.corrections import NOTHING, REACH, Placed, Remarks, line_of, place, without
 from floorplan_core.stages.region_names import ID_PREFIX, next_number
 from floorplan_core.stages.region_sides import WallSurfaces
 from floorplan_core.stages.regions import make_region
@@ -103,8 +103,9 @@ def merge(
     """
     found = [find_region(regions, at) for at in correction.at]
     if None in found:
-        where = place(correction.at[found.index(None)])
-        return regions, None, Remarks(warnings=(f"The region at {where}, merged with others, is gone.",))
+        lost = correction.at[found.index(None)]
+        text = f"The region at {place(lost)}, merged with others, is gone."
+        return regions, None, Remarks(warnings=(Placed(text, lost),))
     chosen = {r.id: r for r in found if r is not None}
     if len(chosen) < 2:
         return regions, None, NOTHING  # they are one already
@@ -188,12 +189,13 @@ def split(
     crossed = [(drawn.intersection(r.polygon).length, -k) for k, r in enumerate(regions)]
     longest, k = max(crossed, default=(0.0, 0))
     if longest <= 0:
-        return regions, Remarks(warnings=(f"The line drawn at {where} splits no region.",))
+        text = f"The line drawn at {where} splits no region."
+        return regions, Remarks(warnings=(Placed(text, correction.start),))
     region = regions[-k]
     parts = _cut(region.polygon, correction, turn)
     if len(parts) < 2 or min(p.area for p in parts) < least:
         problem = f"The line drawn at {where} does not part region {region.name} in two of {least:g} m2."
-        return regions, Remarks(warnings=(problem,))
+        return regions, Remarks(warnings=(Placed(problem, correction.start),))
     return _parted(regions, region, parts, remake), NOTHING
 
 

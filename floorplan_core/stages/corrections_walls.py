@@ -24,7 +24,18 @@ from floorplan_core.model.corrections import (
     Point,
 )
 from floorplan_core.stages.blockers import crossing_offsets, crossing_walls
-from floorplan_core.stages.corrections import NOTHING, REACH, Remarks, Span, beyond, line_of, place, runs_of
+from floorplan_core.stages.corrections import (
+    NOTHING,
+    REACH,
+    Placed,
+    Remarks,
+    Span,
+    beyond,
+    line_of,
+    place,
+    runs_of,
+    wall_place,
+)
 
 ADDED = "hw"  # the ids of walls added by hand begin so
 SHORTEST = 0.1  # m: a shorter line by hand is a slip of the mouse
@@ -82,12 +93,18 @@ def _change(
         return _hide_unseen(planes, correction)
     if found is None:
         where = place(correction.plane.at)
-        return planes, Remarks(warnings=(f"The wall moved from {where} is not there any more.",))
+        text = f"The wall moved from {where} is not there any more."
+        return planes, Remarks(warnings=(Placed(text, correction.plane.at),))
     before = first.get(found.id, found)
     changed = _changed(found, before, correction)
     by_machine = found.id in first and not before.by_hand
-    remark = Remarks(((found.id, f"wall at {before.offset:.3f} m"),)) if by_machine else NOTHING
+    remark = Remarks(((found.id, _wall_at(before)),)) if by_machine else NOTHING
     return tuple(changed if p is found else p for p in planes), remark
+
+
+def _wall_at(plane: LayoutPlane) -> Placed:
+    at = (plane.offset, 0.0) if plane.facing.axis == 0 else (0.0, plane.offset)
+    return Placed(f"wall at {wall_place(at)}", at, form=wall_place)
 
 
 def _changed(
@@ -123,7 +140,8 @@ def _add(planes: Planes, wall: AddWall, number: int) -> tuple[Planes, Remarks]:
     """The two faces of a wall, its ends at the walls that they nearly reach."""
     axis, offset, span = line_of(wall.start, wall.end)
     if span[1] - span[0] < SHORTEST:
-        return planes, Remarks(warnings=(f"The wall added at {place(wall.start)} is too short for one.",))
+        text = f"The wall added at {place(wall.start)} is too short for one."
+        return planes, Remarks(warnings=(Placed(text, wall.start),))
     run = np.array([_snapped(planes, axis, offset, span)])
     faces = [
         LayoutPlane(

@@ -9,7 +9,7 @@ Cost: linear in the cells around the space.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -197,10 +197,3 @@ def disjoint(regions: Sequence[Region], rebuild: Any) -> list[Region]:
             shapes[n] = max(parts, key=lambda p: (p.area, p.bounds))
             out[k] = rebuild(shapes[n], regions[k])
     return out
-
-
-def in_reading_order(regions: Sequence[Region]) -> tuple[Region, ...]:
-    """Named from the top, and from the left in a row."""
-    points = [r.polygon.representative_point() for r in regions]
-    order = sorted(range(len(regions)), key=lambda k: (-round(points[k].y, 1), points[k].x))
-    return tuple(replace(regions[k], id=f"r{n + 1}", name=str(n + 1)) for n, k in enumerate(order))

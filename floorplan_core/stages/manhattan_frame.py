@@ -99,19 +99,14 @@ def _patches(surfels: Surfels, config: FrameConfig, voxel: float) -> CellNormals
 def seen_from(frame: ManhattanFrame, turn: Float, yaw_deg: float | None = None) -> ManhattanFrame:
     """``frame`` for points that ``turn`` (3, 3) takes into those that it was estimated on.
 
-    Of the four ways to lay x and y along the walls the one that turns least is taken, as in the estimate.
-    With ``yaw_deg`` the walls have exactly this direction, as the user wants it.
+    Its quadrant stays, whichever the world's is; its yaw is that of the walls, in (-pi/4, pi/4]. With
+    ``yaw_deg`` the walls have exactly this direction, as the user wants it.
     """
     rotation = frame.rotation @ turn
     heading = math.atan2(rotation[0, 1], rotation[0, 0])
     yaw = float(wrap(heading if yaw_deg is None else math.radians(yaw_deg)))
-    if yaw_deg is None:
-        quarters = round((heading - yaw) / (math.pi / 2)) % 4
-        c, s = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters]
-        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    else:
-        turned = turned_by(heading - yaw)
-    rotation = turned @ rotation
+    if yaw_deg is not None:
+        rotation = turned_by(float(wrap(heading - yaw))) @ rotation
     tilt = math.acos(float(np.clip(rotation[2, 2], -1, 1)))
     return replace(frame, rotation=rotation, yaw=yaw, tilt=tilt)
 

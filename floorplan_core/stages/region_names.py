@@ -13,9 +13,21 @@ from typing import Protocol
 import numpy as np
 
 from floorplan_core.model import Door, Region
+from floorplan_core.model.quarter_turns import turned_place
 
 ID_PREFIX = "r"  # of a region's id; its number follows
 MIN_SHARE = 0.3  # of the smaller of two regions that the other must cover to be the same one
+
+
+def in_reading_order(regions: Sequence[Region], quarters: int = 0) -> tuple[Region, ...]:
+    """The regions named from top to bottom, in steps of a decimetre, then from left to right.
+
+    :param quarters: quarter turns, counter-clockwise, from the axes of the regions to those of the reader.
+    """
+    inside = [r.polygon.representative_point() for r in regions]
+    points = [turned_place((p.x, p.y), quarters) for p in inside]
+    order = sorted(range(len(regions)), key=lambda k: (-round(points[k][1], 1), points[k][0]))
+    return tuple(replace(regions[k], id=f"{ID_PREFIX}{n + 1}", name=str(n + 1)) for n, k in enumerate(order))
 
 
 def persist_names(

@@ -37,6 +37,7 @@ from floorplan_core.model import (
 )
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_confidence import measures_of, probability
+from floorplan_core.stages.region_names import in_reading_order
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
@@ -102,8 +103,7 @@ def build_regions(
         for polygon, rows, steps in whole
     ]
     kept = [r for r in regions if _acceptable(r, config)]
-    kept.sort(key=_reading_order)
-    return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(kept))
+    return in_reading_order(kept)
 
 
 def _bounded(shape: Any, tall: StandingCells | None, sliver: float) -> tuple[Any, StandingCells | None]:
@@ -197,12 +197,6 @@ def region_of(
         confidence=probability(measures_of(sides, free, total, polygon.area)),
         rectangles=rows,
     )
-
-
-def _reading_order(region: Region) -> tuple[float, float]:
-    """Top to bottom, in steps of a decimetre, then left to right."""
-    place = region.polygon.representative_point()
-    return -round(place.y, 1), place.x
 
 
 def _acceptable(region: Region, config: RegionsConfig) -> bool:

@@ -20,6 +20,7 @@ from floorplan_core.geometry.rectilinear import polygons_of
 from floorplan_core.model import FREE, Door, LayoutPlane, OccupancyGrid, Region, RegionSide
 from floorplan_core.model.corrections import Point
 from floorplan_core.model.layout import turned
+from floorplan_core.stages.region_names import in_reading_order
 from floorplan_core.stages.regions import count_cells, region_of
 
 Float = NDArray[np.float64]
@@ -49,8 +50,11 @@ class PartLayout:
     grid: OccupancyGrid
 
 
-def join_regions(parts: Sequence[PartLayout], least: float) -> tuple[Region, ...]:
-    """The regions of all parts in the axes of the plan, disjoint, in reading order; at least ``least`` m2."""
+def join_regions(parts: Sequence[PartLayout], least: float, quarters: int) -> tuple[Region, ...]:
+    """The regions of all parts in the axes of the plan, disjoint, in reading order; at least ``least`` m2.
+
+    :param quarters: quarter turns from the axes of the plan to those of the reader.
+    """
     found = [
         (turned_region(region, part.turn, k), part, walls_of(other for other in parts if other is not part))
         for k, part in enumerate(parts)
@@ -65,10 +69,7 @@ def join_regions(parts: Sequence[PartLayout], least: float) -> tuple[Region, ...
     done: list[Region] = []
     for region, part, walls in ordered:
         done += [r for r, _, _ in _cut(region, part, walls, _taken_before(region, done), least)]
-    done.sort(
-        key=lambda r: (-round(r.polygon.representative_point().y, 1), r.polygon.representative_point().x)
-    )
-    return tuple(replace(r, id=f"r{k + 1}", name=str(k + 1)) for k, r in enumerate(done))
+    return in_reading_order(done, quarters)
 
 
 def join_doors(parts: Sequence[PartLayout], rejected: Sequence[Point] = ()) -> tuple[Door, ...]:

@@ -75,6 +75,43 @@ def straight(flat, tmp_path_factory) -> list[shapely.Polygon]:
     return world(plan, np.eye(3), np.zeros(3))
 
 
+@pytest.fixture(scope="module")
+def bundled() -> Survey:
+    """Twelve rooms, some of which were hardly seen."""
+    read = open_survey(Path(__file__).parents[2] / "resources" / "sample_survey")
+    chunks = list(read.chunks())
+    points = np.concatenate([c.points for c in chunks]).astype(np.float64)
+    return Survey(
+        points, np.concatenate([c.scan_id for c in chunks]), read.trajectory.T_world_sensor, np.eye(3)
+    )
+
+
+@pytest.fixture(scope="module")
+def bundled_plan(bundled, tmp_path_factory) -> list[shapely.Polygon]:
+    plan = plan_of(tmp_path_factory.mktemp("bundled"), bundled.points, bundled.scan_id, bundled.poses)
+    return world(plan, np.eye(3), np.zeros(3))
+
+
+@pytest.mark.parametrize(
+    ("turn", "shift", "unit"),
+    [
+        (rotation(90), (0, 0, 0), "m"),
+        (rotation(180), (-9e6, 7e6, 0), "mm"),
+        (rotation(-61, 1.5, -1.0), (4e5, 5.3e6, 512), "m"),
+        (rotation(133, 0.4, 2.0), (0, 0, 3000), "ft"),
+    ],
+    ids=["90 degrees", "180 degrees", "tilted, land survey", "tilted, feet"],
+)
+def test_a_survey_of_half_seen_rooms_in_any_quadrant(bundled, bundled_plan, tmp_path, turn, shift, unit):
+    """What is predicted follows from choices, each of which may fall otherwise when a point does."""
+    shift = np.array(shift, dtype=np.float64)
+    plan = plan_of(tmp_path, *moved(bundled, turn, shift), METRES_PER_UNIT[unit], unit=unit, up="z")
+    assert_same(world(plan, turn, shift), bundled_plan, 1e-4)
+    assert abs(np.degrees(plan.frame.yaw)) <= 45
+    x, y = plan.frame.rotation[:2, :2].diagonal()
+    assert min(x, y) > 0.7  # the plan's axes are those of the walls that are nearest to the world's
+
+
 OFFSETS = st.floats(-1e7, 1e7).map(lambda v: round(v, 3))
 
 

@@ -219,8 +219,7 @@ def test_the_trajectory_moves_with_the_points(tmp_path):
     survey = open_survey(path, write_tum(tmp_path / "a.tum", rows))
     np.testing.assert_allclose(survey.trajectory.origins + survey.local_frame.shift, rows[:, 1:4], atol=1e-2)
     points, _ = all_points(survey)
-    assert points.dtype == np.float32
-    np.testing.assert_allclose(points + survey.local_frame.shift, cloud, atol=1e-3)
+    np.testing.assert_allclose(points + survey.local_frame.shift, cloud, atol=1e-8)
 
 
 def test_metres_beside_millimetres(tmp_path):
