@@ -19,6 +19,7 @@ from floorplan_core.drift import as_configured
 from floorplan_core.errors import InputError, NoPlanError, UsageError
 from floorplan_core.geometry.columns import STRIP_CELLS
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
+from floorplan_core.in_world import in_world, named
 from floorplan_core.kernel_times import stopwatch
 from floorplan_core.layout import lay_out
 from floorplan_core.layout_islands import site_points
@@ -38,7 +39,7 @@ from floorplan_core.model import (
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.model.floor_plan import by_hand
-from floorplan_core.model.quarter_turns import quarters_to_world, turned_plan
+from floorplan_core.model.quarter_turns import quarters_to_world
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.stages.corrections import Remarks, in_plan
@@ -302,12 +303,11 @@ class FloorPlanner:
             )
 
     def _in_world(self, own: FloorPlan, said: Remarks, corrections: Sequence[Correction]) -> FloorPlan:
-        """The plan, made in the survey's own quadrant, along the axes nearest to the world's, with all that
-        is said of it, and with the names that its regions had before."""
-        quarters = quarters_to_world(own.frame)
-        plan = self._named(turned_plan(own, quarters))
+        """The plan, made in the survey's own quadrant, along the axes nearest to the world's, with the names
+        that its regions had before and all that is said of it."""
+        plan = named(in_world(own), self.names, self.map.own.centre)
         regions, remarks = correct_names(plan.regions, in_plan(corrections, plan.frame).names)
-        said = said.turned(quarters) + remarks
+        said = said.turned(quarters_to_world(own.frame)) + remarks
         if not plan.wings:
             said += Remarks(warnings=misfit(plan.frame))
         return replace(
@@ -317,18 +317,6 @@ class FloorPlanner:
             corrected=by_hand(plan.all_planes, plan.doors, regions),
             machine=said.machine_said(),
         )
-
-    def _named(self, plan: FloorPlan) -> FloorPlan:
-        """Names that persist by place: in the local frame, since that of the plan changes as more is seen."""
-        import shapely
-
-        def local(xy: Float) -> Float:
-            return (plan.frame.from_manhattan(xy) + self.map.own.centre)[:, :2]
-
-        placed = tuple(replace(r, polygon=shapely.transform(r.polygon, local)) for r in plan.regions)
-        named, doors = self.names(placed, plan.doors, plan.storey)
-        regions = tuple(replace(r, id=n.id, name=n.name) for r, n in zip(plan.regions, named, strict=True))
-        return replace(plan, regions=regions, doors=doors)
 
     def _some(self, regions: tuple[Region, ...]) -> tuple[Region, ...]:
         """The regions; at least one there must be."""

@@ -14,6 +14,7 @@ from floorplan_core.evaluation.plan_file import PlanDoor
 from floorplan_core.evaluation.truth import Truth
 from floorplan_core.model import Door, FloorPlan, LayoutPlane
 from floorplan_core.model.evidence import Evidence
+from floorplan_core.model.quarter_turns import turned_door
 from floorplan_core.observer import Observer
 from floorplan_core.stages.doors import find_doors
 
@@ -50,9 +51,13 @@ def judge(apertures: Sequence[Door], plan: FloorPlan, truth: Truth) -> Judged:
 
 
 def is_door(apertures: Sequence[Door], plan: FloorPlan, truth: Truth) -> list[bool | None]:
-    """Whether truth has a door or opening at each aperture; None for second ones, and where it has none."""
+    """Whether truth has a door or opening at each aperture; None for second ones, and where it has none.
+
+    ``apertures`` lie as the stages see them, in the survey's own quadrant; the finished plan was turned.
+    """
     to_building = inverse(truth.world_from_building)
-    doors = [_in_building(door, plan, to_building) for door in apertures]
+    turned = [turned_door(door, plan.candidates.quarters) for door in apertures]
+    doors = [_in_building(door, plan, to_building) for door in turned]
     if not doors or not truth.doors:
         return [None] * len(doors)
     near = affinity(doors, truth.doors).max(axis=1) > 0
