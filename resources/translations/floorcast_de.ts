@@ -3000,8 +3000,8 @@
    <translation>Die von Hand geänderte Tür ({0}) bei {1} ist nicht mehr da.</translation>
   </message>
   <message>
-   <source>The door {0} by hand at ({1}, {2}) does not lie between two regions, and is left out.</source>
-   <translation>Die von Hand geänderte Tür ({0}) bei ({1}, {2}) liegt nicht zwischen zwei Regionen; sie wird weggelassen.</translation>
+   <source>The door {0} by hand at {1} does not lie between two regions, and is left out.</source>
+   <translation>Die von Hand geänderte Tür ({0}) bei {1} liegt nicht zwischen zwei Regionen; sie wird weggelassen.</translation>
   </message>
   <message>
    <source>The drawing of plan.svg on one page at true scale, to print and to hand over.</source>
@@ -4750,10 +4750,6 @@
   <message>
    <source>wall at {0}</source>
    <translation>Wand bei {0}</translation>
-  </message>
-  <message>
-   <source>wall at {0} m</source>
-   <translation>Wand bei {0} m</translation>
   </message>
   <message>
    <source>wall on both sides</source>
