@@ -111,7 +111,9 @@ def lay_out(
     )
     said += remarks
     doors, feet, flights = apart_from_stairs(doors, flights)
-    planes = stage.correct("stubs", lambda: close_beside_doors(planes, doors), planes, doors)
+    planes = stage.correct(
+        "stubs", lambda: close_beside_doors(planes, doors, evidence.inferred), planes, doors, evidence
+    )
     grid = stage(
         "occupancy",
         lambda: _within(slice_map(around, planes, doors, config.occupancy), cells),

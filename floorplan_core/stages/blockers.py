@@ -17,6 +17,7 @@ Float = NDArray[np.float64]
 _CORNER = 1.2  # m of unseen wall between the end of a run and the wall that it must meet
 _ON = 0.5  # m that a crossing wall must go on beyond a beam or a gap on both sides
 _FLANK, _STANDS = 0.6, 0.25  # m beside an opening in which that much wall must stand
+_HIDDEN_END, _FREE_BESIDE = 0.4, 0.15  # m of unseen wall towards a corner; share free that shows it open
 _STUB, _CORNERED = 0.1, 0.5  # m of wall that is a jamb beside a corner, and how near the corner must be
 _HIDDEN = 0.5  # m beside an opening of which nothing was seen before its jamb
 _SOLID = 0.12  # of the height below 2 m, seen: something stands there
@@ -33,6 +34,28 @@ def crossing_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
     """(K, 3) offset, start and end of every wall run of the planes across ``axis``."""
     runs = [(p.offset, s, e) for p in planes if p.facing.axis == axis for s, e in p.walls]
     return np.array(runs, dtype=np.float64).reshape(-1, 3)
+
+
+def reaching_walls(planes: Sequence[LayoutPlane], axis: int) -> Float:
+    """The same, each run longer by what was not seen at its ends: near a corner both walls are hidden."""
+    runs = [
+        (p.offset, s - _hidden_end(p, s, -1), e + _hidden_end(p, e, 1))
+        for p in planes
+        if p.facing.axis == axis
+        for s, e in p.walls.tolist()
+    ]
+    return np.array(runs, dtype=np.float64).reshape(-1, 3)
+
+
+def _hidden_end(plane: LayoutPlane, end: float, sign: int) -> float:
+    """Metres beyond the end of a run that no free space passes; 0 where it ends in the open."""
+    profile = plane.profile
+    if profile is None:
+        return 0.0
+    first, many = (round(v / profile.step) for v in (end - profile.start, _HIDDEN_END))
+    open_ = profile.through > _FREE_BESIDE
+    ahead = open_[first : first + many] if sign > 0 else open_[max(first - many, 0) : max(first, 0)][::-1]
+    return 0.0 if ahead.any() else len(ahead) * profile.step
 
 
 def crossing_offsets(plane: LayoutPlane, others: Float) -> Float:
@@ -68,13 +91,18 @@ def close_corners(planes: Sequence[LayoutPlane], widest: float = 0.0) -> tuple[L
     return tuple(out)
 
 
-def close_beside_doors(planes: Sequence[LayoutPlane], doors: Sequence[Door]) -> tuple[LayoutPlane, ...]:
+def close_beside_doors(
+    planes: Sequence[LayoutPlane], doors: Sequence[Door], inferred: bool = False
+) -> tuple[LayoutPlane, ...]:
     """Wall on both sides of each door, up to the next door or crossing wall: a door is cut into a wall.
 
     Of the wall beside a door nothing may have been seen, behind furniture or at too flat an angle; where free
     space passes it, it is none.
+
+    :param inferred: free space was not seen: it tells nothing of where a crossing wall goes on unseen.
     """
-    crossing = {axis: crossing_walls(planes, axis) for axis in (0, 1)}
+    ends = crossing_walls if inferred else reaching_walls
+    crossing = {axis: ends(planes, axis) for axis in (0, 1)}
     of: dict[str, list[Door]] = {}
     for door in doors:
         for name in dict.fromkeys(door.planes):

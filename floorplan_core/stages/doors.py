@@ -18,7 +18,7 @@ from floorplan_core.config import DoorsConfig
 from floorplan_core.geometry.halves import begin
 from floorplan_core.model import Door, Facing, LayoutPlane
 from floorplan_core.model.evidence import Evidence
-from floorplan_core.stages.blockers import crossing_offsets, crossing_walls, passing_offsets
+from floorplan_core.stages.blockers import crossing_offsets, crossing_walls, passing_offsets, reaching_walls
 from floorplan_core.stages.door_apertures import apertures, has_parapet, shows_lintels
 from floorplan_core.stages.door_edges import refine_edges
 from floorplan_core.stages.door_evidence import DoorMeasures, measure, view_wall
@@ -28,6 +28,7 @@ _LANE = 1.0  # m, width of the lanes along walls in which openings are looked up
 _PASSABLE = 0.5  # m that two faces must have in common
 _BESIDE = 0.5  # m from an aperture, within which one of its planes was seen: it is cut into a wall
 _REVERSED = 0.02  # m by which noise may bring the face of a wall before its other face
+_FAINT = 0.4  # m2 seen of a plane: a weaker one bounds no room (as planes.min_support has it)
 _FOOTLESS = 0.4  # of the area near the floor: what is free less may be a window above its sill
 
 
@@ -45,7 +46,8 @@ def find_doors(planes: tuple[LayoutPlane, ...], evidence: Evidence, config: Door
     lintels = shows_lintels([p.profile for p in planes if p.profile])
     found = find_candidates(planes, evidence, config, lintels)
     merged = merge_faces(found, planes, config, evidence.viewpoints)
-    judged = [_judged(c, lintels) for c in merged]
+    support = {p.id: p.support for p in planes}
+    judged = [_judged(c, lintels, support) for c in merged]
     likely = [d for d in judged if d.confidence >= config.min_confidence]
     edged = refine_edges(likely, planes, evidence)
     kept = [_kind(d, config) for d in edged if d.width >= config.min_width]
@@ -59,12 +61,15 @@ def find_candidates(
 ) -> list[Candidate]:
     """The apertures of every plane with their measures; ``lintels``: the survey shows any at all."""
     crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
+    # without viewpoints what is free was inferred, and tells nothing of where a wall goes on unseen
+    reaching = {a: reaching_walls(planes, a) for a in (0, 1)} if evidence.viewpoints else crossing
     alike = {f: crossing_walls([p for p in planes if p.facing == f], f.axis) for f in Facing}
     found = []
     for plane in planes:
         assert plane.profile is not None
-        others = crossing[1 - plane.facing.axis]
-        meets, past = crossing_offsets(plane, others), passing_offsets(plane, others)
+        across = 1 - plane.facing.axis
+        meets = crossing_offsets(plane, reaching[across])
+        past = passing_offsets(plane, crossing[across])
         view = view_wall(plane, evidence, alike[plane.facing])
         for start, end, response in apertures(
             plane.profile, view.open, plane.walls, meets, config, lintels, past
@@ -80,10 +85,16 @@ def _candidate(plane: LayoutPlane, start: float, end: float, measures: DoorMeasu
     return Candidate(door, measures)
 
 
-def _judged(candidate: Candidate, lintels: bool) -> Door:
-    """The door with its evidence and confidence."""
+def _judged(candidate: Candidate, lintels: bool, support: dict[str, float]) -> Door:
+    """The door with its evidence and confidence; ``support``: m2 that were seen of each plane.
+
+    What stands beside an aperture without a lintel may be a chair: of so little surface no wall is made.
+    """
     measures = candidate.measures
-    return replace(candidate.door, evidence=measures.words(), confidence=measures.confidence(lintels))
+    words, likely = measures.words(), measures.confidence(lintels)
+    if "lintel" not in words and max(support[p] for p in candidate.door.planes) < _FAINT:
+        likely = measures.limited(likely, leads_on=False)
+    return replace(candidate.door, evidence=words, confidence=likely)
 
 
 def _kind(door: Door, config: DoorsConfig) -> Door:

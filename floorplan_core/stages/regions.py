@@ -208,16 +208,29 @@ def _acceptable(region: Region, config: RegionsConfig) -> bool:
 def connect_doors(
     regions: Sequence[Region], doors: Sequence[Door]
 ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
-    """Which one or two regions each door joins: those just beyond its two faces. Others are dropped."""
+    """Which one or two regions each door joins: those just beyond its two faces. Others are dropped.
+
+    So is a gap beside furniture that was taken for a wall: where doors of the survey show lintels, it shows
+    none, nor the same opening in another face, and leads out of a region into none.
+    """
+    lintels = any("lintel" in d.evidence for d in doors)
     tree = shapely.STRtree([r.polygon for r in regions])
     linked = []
     for door in doors:
         sides = [_behind(door, sign, regions, tree) for sign in (-1, 1)]
         names = tuple(dict.fromkeys(s for s in sides if s))
+        if len(names) == 1 and lintels and _is_bare(door):
+            continue
         if names and (sides[0] != sides[1]):  # an opening inside one region separates nothing
             linked.append(replace(door, connects=names))
     mine = {r.id: tuple(d.id for d in linked if r.id in d.connects) for r in regions}
     return tuple(replace(r, doors=mine[r.id]) for r in regions), tuple(linked)
+
+
+def _is_bare(door: Door) -> bool:
+    """True for an aperture that only free space shows, in one face of what may be no wall."""
+    words = set(door.evidence)
+    return not door.by_hand and {"open", "passage"} <= words and not {"lintel", "both faces"} & words
 
 
 def _behind(door: Door, sign: int, regions: Sequence[Region], tree: shapely.STRtree) -> str:

@@ -11,7 +11,9 @@ from floorplan_core.model import Door, Facing, LayoutPlane, WallProfile
 from floorplan_core.stages.blockers import (
     close_beside_doors,
     close_corners,
+    crossing_offsets,
     passing_offsets,
+    reaching_walls,
     remove_beams,
 )
 
@@ -107,6 +109,16 @@ def test_a_lintel_goes_on_to_the_corner_that_hides_its_jamb() -> None:
     assert reaches(behind_a_corner(0.4, lintel=0.5), corner) == pytest.approx(7.5), "little hangs there"
     assert reaches(behind_a_corner(0.4), across(CORNER, GOES_ON)) == pytest.approx(7.5), "a beam"
     assert reaches(behind_a_corner(0.4)) == pytest.approx(7.5), "no corner"
+
+
+@pytest.mark.parametrize(("through", "meets"), [(0.0, [4.0]), (1.0, [])])
+def test_a_wall_reaches_the_corner_that_is_hidden(through: float, meets: list[float]) -> None:
+    """It ends 0.6 m before the plane that it would meet, and of the rest nothing was seen."""
+    wall = _with(spanned([(2.0, 9.4)]), 0.0, through, 9.4, 12.0)
+    plane = replace(across(CORNER, (4.8, 8.0)), walls=np.array([(4.8, 8.0)]))
+    ends = replace(wall, walls=np.array([(2.0, 9.4)]))
+    assert crossing_offsets(plane, reaching_walls([ends], 0)).tolist() == meets
+    assert crossing_offsets(plane, reaching_walls([replace(ends, profile=None)], 0)).tolist() == []
 
 
 @pytest.mark.parametrize(("through", "cut"), [(1.0, False), (0.0, True)])
