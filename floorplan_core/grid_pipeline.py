@@ -31,6 +31,7 @@ from floorplan_core.model import (
     FloorPlan,
     GridMap,
     LayoutPlane,
+    LayoutSegment,
     LocalFrame,
     OccupancyGrid,
     RectangleCover,
@@ -50,7 +51,7 @@ from floorplan_core.stages.grid_map import MapFloor, find_floor
 from floorplan_core.stages.grid_map_corrections import correct_map, mark_planes
 from floorplan_core.stages.grid_map_doors import grid_doors
 from floorplan_core.stages.grid_map_outlines import askew_share, outline, outline_region
-from floorplan_core.stages.grid_map_passages import find_passages
+from floorplan_core.stages.grid_map_passages import Passage, find_passages
 from floorplan_core.stages.grid_map_spaces import (
     SpaceProblem,
     disjoint,
@@ -84,6 +85,16 @@ class _Solved:
     askew: bool  # its walls run at other angles: rectangles have nothing to say
 
 
+@dataclass(frozen=True)
+class _Walls:
+    """What bounds the spaces."""
+
+    boundary: Boundary
+    segments: tuple[LayoutSegment, ...]
+    rows: NDArray[np.int64]  # of the boundary that are segments
+    planes: tuple[LayoutPlane, ...]
+
+
 def plan_grid_map(
     grid_map: GridMap,
     config: Config | None = None,
@@ -108,45 +119,20 @@ def plan_grid_map(
         "doors", lambda: find_passages(ground.floor, ground.grid.cell, config.maps), ground, config.maps
     )
     grid = stage.correct("grid", lambda: _with_universe(ground.grid, spaces), ground, spaces)
-    boundary = stage("segments", lambda: find_boundary(spaces, ground.floor, grid), spaces, ground, grid)
-    segments, rows = stage(
-        "segments",
-        lambda: wall_segments(boundary, grid, config),
-        boundary,
-        grid,
-        config.segments,
-        config.planes,
-    )
-    segments, planes = stage(
-        "planes", lambda: wall_planes(segments, grid.cell, config), segments, config.planes, config.segments
-    )
-    planes = stage.correct("marks", lambda: mark_planes(planes, corrected, grid.cell), planes, corrected)
-    walls = tuple(p for p in planes if p.by_hand != "hidden")
-    machine, askew = stage(
-        "doors",
-        lambda: grid_doors(passages, walls, ground.floor, grid, config.doors),
-        *(passages, planes, ground, grid, config.doors),
-    )
-    doors, _, remarks = stage.correct(
-        "doors",
-        lambda: correct_doors(machine, planes, say.doors, config.doors, lambda: machine),
-        *(machine, planes, say.doors, config.doors),
-    )
+    walls = _find_walls(stage, ground, spaces, grid, corrected, config)
+    doors, askew, remarks = _find_doors(stage, ground, passages, grid, walls.planes, say.doors, config)
     said += remarks
-    problems = stage(
-        "candidates",
-        lambda: space_problems(spaces, ground.floor, grid, boundary, segments, rows, planes, config),
-        *(spaces, ground, grid, boundary, segments, rows, planes, config),
-    )
-    solved = stage("cover", lambda: [_solve(p, config, observer) for p in problems], problems, config)
+    solved = _cover_spaces(stage, ground, spaces, grid, walls, config, observer)
     sets = [s.candidates for s in solved]
-    cover, first = join_covers([s.cover for s in solved], sets, problems, grid.states.shape)
+    cover, first = join_covers(
+        [s.cover for s in solved], sets, [s.problem for s in solved], grid.states.shape
+    )
     regions, drawn = stage(
         "regions", lambda: _regions(solved, first, doors, grid, config), solved, doors, grid, config
     )
-    all_planes = stage.correct("planes", lambda: _all_planes(planes, solved), planes, solved)
-    found = (all_planes, segments, doors, grid)
-    regions, all_planes, remarks = stage.correct(
+    planes = stage.correct("planes", lambda: _all_planes(walls.planes, solved), walls.planes, solved)
+    found = (planes, walls.segments, doors, grid)
+    regions, planes, remarks = stage.correct(
         "shapes",
         lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
         *(regions, say.shapes, *found, config.regions),
@@ -169,14 +155,14 @@ def plan_grid_map(
     return FloorPlan(
         ground.frame,
         LocalFrame(),
-        segments,
-        all_planes,
+        walls.segments,
+        planes,
         doors,
         grid,
         join_candidates(sets),
         cover,
         regions,
-        stage.correct("points", lambda: _wall_points(boundary, grid), boundary, grid),
+        stage.correct("points", lambda: _wall_points(walls.boundary, grid), walls.boundary, grid),
         np.zeros((0, 2)),
         grid_map.name,
         int(np.count_nonzero(grid_map.states)),
@@ -184,9 +170,74 @@ def plan_grid_map(
         warnings,
         stage.seconds,
         raster=grid_map.raster,
-        corrected=by_hand(all_planes, doors, regions),
+        corrected=by_hand(planes, doors, regions),
         machine=said.machine_said(),
     )
+
+
+def _find_walls(
+    stage: StageRunner,
+    ground: MapFloor,
+    spaces: NDArray[np.int32],
+    grid: OccupancyGrid,
+    corrected: tuple[LayoutPlane, ...],
+    config: Config,
+) -> _Walls:
+    """The boundary of the spaces as segments and planes, marked with what a person said of them."""
+    boundary = stage("segments", lambda: find_boundary(spaces, ground.floor, grid), spaces, ground, grid)
+    segments, rows = stage(
+        "segments",
+        lambda: wall_segments(boundary, grid, config),
+        *(boundary, grid, config.segments, config.planes),
+    )
+    segments, planes = stage(
+        "planes", lambda: wall_planes(segments, grid.cell, config), segments, config.planes, config.segments
+    )
+    planes = stage.correct("marks", lambda: mark_planes(planes, corrected, grid.cell), planes, corrected)
+    return _Walls(boundary, segments, rows, planes)
+
+
+def _find_doors(
+    stage: StageRunner,
+    ground: MapFloor,
+    passages: Sequence[Passage],
+    grid: OccupancyGrid,
+    planes: tuple[LayoutPlane, ...],
+    said: Sequence[Correction],
+    config: Config,
+) -> tuple[tuple[Door, ...], int, Remarks]:
+    """The doors, how many passages lie in walls at other angles, and what came of the corrections."""
+    walls = tuple(p for p in planes if p.by_hand != "hidden")
+    machine, askew = stage(
+        "doors",
+        lambda: grid_doors(passages, walls, ground.floor, grid, config.doors),
+        *(passages, planes, ground, grid, config.doors),
+    )
+    doors, _, remarks = stage.correct(
+        "doors",
+        lambda: correct_doors(machine, planes, said, config.doors, lambda: machine),
+        *(machine, planes, said, config.doors),
+    )
+    return doors, askew, remarks
+
+
+def _cover_spaces(
+    stage: StageRunner,
+    ground: MapFloor,
+    spaces: NDArray[np.int32],
+    grid: OccupancyGrid,
+    walls: _Walls,
+    config: Config,
+    observer: Observer,
+) -> list[_Solved]:
+    """Candidates and cover of every space."""
+    parts = (spaces, ground.floor, grid, walls.boundary, walls.segments, walls.rows, walls.planes)
+    problems = stage(
+        "candidates",
+        lambda: space_problems(*parts, config),
+        *(spaces, ground, grid, walls.boundary, walls.segments, walls.rows, walls.planes, config),
+    )
+    return stage("cover", lambda: [_solve(p, config, observer) for p in problems], problems, config)
 
 
 def _with_universe(grid: OccupancyGrid, spaces: NDArray[np.int32]) -> OccupancyGrid:
