@@ -12,11 +12,13 @@ from floorplan_core.cli.info import survey_rows
 from floorplan_core.config import Config
 from floorplan_core.exporters.geojson import geojson_text
 from floorplan_core.model import FloorPlan, PointChunk, Reconstruction
+from floorplan_core.model.storey import HeightMap, Storey, heading
 from floorplan_core.observer import Observer
 from floorplan_core.pipeline import process_storeys
+from floorplan_core.stages.wings import wing_frame
 from floorplan_core.survey_info import describe
 from tests.box_world import LINTEL, run, survey, two_rooms
-from tests.split_world import EAST, HIGH, LANDING, UP, WEST, house
+from tests.split_world import EAST, HIGH, LANDING, UP, WEST, SplitWithWing, gallery, house
 from tests.stages.test_storeys import box
 
 IN_THE_FILES_AXES = Config().with_values({"voxels.own_axes": "false", "input.up": "z"})
@@ -88,6 +90,44 @@ def test_a_hall_over_two_storeys_is_in_the_lower_plan_only():
     assert sorted(r.area for r in lower.regions) == pytest.approx([30, 36], abs=0.4)
     assert [r.area for r in upper.regions] == [pytest.approx(36, abs=0.3)]
     assert all(r.rise == 0 for r in (*lower.regions, *upper.regions))
+
+
+@pytest.mark.parametrize("viewpoints", [True, False], ids=["viewpoints", "plain"])
+@pytest.mark.parametrize(("edge", "parapet"), [(5.0, 1.0), (5.2, 0.0)])
+def test_a_gallery_ends_at_its_edge(edge, parapet, viewpoints):
+    scans = gallery(edge, parapet)
+    lower, upper = process_storeys(scans.reconstruction(trajectory=viewpoints), IN_THE_FILES_AXES)
+    assert [r.area for r in lower.regions] == [pytest.approx(80, abs=0.5)]
+    (region,) = upper.regions
+    assert upper.to_world(region.polygon.exterior.coords)[:, 1].min() == pytest.approx(edge, abs=0.15)
+    assert region.area == pytest.approx(10 * (8 - edge), abs=1.5)
+
+
+@pytest.mark.parametrize("degrees", [30.0, 45.0])
+def test_a_split_level_has_a_wing(degrees):
+    """The hall of the wing has one side along the house, which is longer than its own."""
+    world = SplitWithWing(degrees)
+    lower, upper = process_storeys(world.survey().reconstruction(), IN_THE_FILES_AXES)
+    assert [abs(np.degrees(w.turn)) for w in lower.wings] == pytest.approx([degrees], abs=0.3)
+    hall, chamber = world.rooms()[2:]
+    wanted = sorted([36.0, 30.0, hall.area, chamber.area])
+    assert sorted(r.area for r in lower.regions) == pytest.approx(wanted, abs=0.4)
+    assert sorted(r.rise for r in lower.regions) == pytest.approx([0, 0, 0, 1.4], abs=0.03)
+    assert upper.wings == () and max(r.area for r in upper.regions) == pytest.approx(36, abs=0.2)
+
+
+def test_the_heights_of_a_storey_are_found_from_a_wings_axes():
+    lower = process_storeys(house().reconstruction(), IN_THE_FILES_AXES)[0]
+    frame = lower.frame
+    step = HeightMap(np.array([[1.0, 2.0], [3.0, 4.0]]))
+    storey = Storey(0, 0.0, None, step, HeightMap.constant(9.0), step, heading=heading(frame))
+    wing = wing_frame(frame, np.radians(30))
+    places = np.array([[0.5, 0.5, 0.0], [1.5, 0.5, 0.0], [0.5, 1.5, 0.0], [1.5, 1.5, 0.0]])
+    turned = wing.to_manhattan(frame.from_manhattan(places))[:, :2]
+    assert storey.along(frame) is storey
+    assert storey.along(wing).bottom.at(turned).tolist() == [1.0, 2.0, 3.0, 4.0]
+    assert storey.bottom.at(turned).tolist() != [1.0, 2.0, 3.0, 4.0]
+    assert storey.along(wing).floors.at(turned).tolist() == [1.0, 2.0, 3.0, 4.0]
 
 
 @pytest.mark.parametrize("rise", [0.3, 0.6])

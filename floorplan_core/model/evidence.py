@@ -34,6 +34,7 @@ class Evidence:
     inferred: bool  # True: neither rays nor the file told free space; it is guessed from floor and ceiling
     viewpoints: bool  # False: no sensor origins; which way a surface faces is told by the free space
     floors: HeightMap | None = None  # z of the floor that heights count from, where it is not the frame's
+    elsewhere: NDArray[np.bool_] | None = None  # (ny, nx) whose floor is in the plan of another storey
 
     @property
     def shape(self) -> tuple[int, int]:

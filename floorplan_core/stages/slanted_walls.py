@@ -23,6 +23,7 @@ from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import open_polygon, polygons_of
 from floorplan_core.model import FREE, OccupancyGrid
 from floorplan_core.model.evidence import Bits, Evidence
+from floorplan_core.stages.other_storeys import straight_outline
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
@@ -49,12 +50,15 @@ class StandingCells:
 
     grid: OccupancyGrid
     cells: Bool  # (ny, nx)
+    elsewhere: Any = None  # polygons of what is in the plan of another storey, as where a gallery ends
 
     def cut(self, polygon: Any, sliver: float) -> Any:
-        """``polygon`` without what lies behind slanted walls; itself where there are none.
+        """``polygon`` without what lies behind slanted walls or elsewhere; itself where that is nothing.
 
         :param sliver: metres, below which parts that are left over are dropped.
         """
+        if self.elsewhere is not None and polygon.intersection(self.elsewhere).area > _LEAST:
+            polygon = _less(polygon, self.elsewhere, sliver)
         grid = self.grid
         window, inside = polygon_window(polygon, grid.origin, grid.cell, grid.states.shape)
         stands = self.cells[window] & inside
@@ -65,8 +69,7 @@ class StandingCells:
             return polygon
         corner = grid.origin + grid.cell * np.array([window[1].start, window[0].start])
         boxes = _steps(behind, inside) * grid.cell + np.tile(corner, 2)
-        rest = open_polygon(polygon.difference(shapely.union_all(shapely.box(*boxes.T))), sliver)
-        return rest if polygons_of(rest) else polygon
+        return _less(polygon, shapely.union_all(shapely.box(*boxes.T)), sliver)
 
     def along(self, start: tuple[float, float], end: tuple[float, float]) -> float:
         """Share of the line between two places, as near as a step is wide, beside which something stands."""
@@ -82,11 +85,18 @@ class StandingCells:
         return round(float(near[j, i].mean()), 4)
 
 
+def _less(polygon: Any, other: Any, sliver: float) -> Any:
+    """``polygon`` without ``other``; itself where nothing would be left."""
+    rest = open_polygon(polygon.difference(other), sliver)
+    return rest if polygons_of(rest) else polygon
+
+
 def standing_cells(evidence: Evidence, grid: OccupancyGrid) -> StandingCells:
     """The cells of the grid whose columns are hit from below table height to above furniture."""
     found = by_strips(evidence.hits, _heights)
     around = [widened((found & part) != 0) for part in (_FOOT, _HEAD)]
-    return StandingCells(grid, ((found & _BODY) != 0) & around[0] & around[1])
+    cells = ((found & _BODY) != 0) & around[0] & around[1]
+    return StandingCells(grid, cells, None if evidence.elsewhere is None else straight_outline(evidence))
 
 
 def _heights(hits: Bits) -> NDArray[np.uint8]:

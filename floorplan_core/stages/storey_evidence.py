@@ -22,6 +22,8 @@ from floorplan_core.stages.voxel_columns import gather_evidence
 
 Float = NDArray[np.float64]
 
+_OPEN = 1.8  # m above the floor, up to which a place belongs to the storey below: nobody stands on it up here
+
 
 def gather_storey(
     surfels: SurfelMap,
@@ -38,13 +40,22 @@ def gather_storey(
         raised = replace(frame, floor_z=floor, ceiling_z=ceiling)
         return restrict_evidence(gather_evidence(surfels, misses, raised, path, config), storey)
 
+    storey = storey.along(frame)
     found = gathered(frame.floor_z)
-    if storey.floors is None:
-        return found
-    for floor in np.unique(storey.floors.heights).tolist():
-        if floor != frame.floor_z:
-            found = _with_part(found, gathered(floor), storey.floors, floor)
-    return replace(found, floors=storey.floors)
+    if storey.floors is not None:
+        for floor in np.unique(storey.floors.heights).tolist():
+            if floor != frame.floor_z:
+                found = _with_part(found, gathered(floor), storey.floors, floor)
+    return replace(found, floors=storey.floors, elsewhere=_elsewhere(found, storey))
+
+
+def _elsewhere(evidence: Evidence, storey: Storey) -> NDArray[np.bool_] | None:
+    """(ny, nx) where a room of the storey below is open up here; None: nowhere."""
+    ny, nx = evidence.shape
+    centres = _centres(evidence, ny, nx, evidence.cell)
+    floor = evidence.frame.floor_z if storey.floors is None else storey.floors.at(centres)
+    below = storey.bottom.at(centres) > floor + _OPEN
+    return below.reshape(ny, nx) if below.any() else None
 
 
 def restrict_evidence(evidence: Evidence, storey: Storey) -> Evidence:

@@ -21,7 +21,7 @@ from floorplan_core.config import StoreysConfig
 from floorplan_core.geometry.cell_normals import fit_cell_normals
 from floorplan_core.geometry.surfel_map import SurfelMap, Surfels
 from floorplan_core.model import ManhattanFrame
-from floorplan_core.model.storey import HeightMap, Storey
+from floorplan_core.model.storey import HeightMap, Storey, heading
 from floorplan_core.stages.manhattan_frame import floor_and_ceiling
 from floorplan_core.stages.slab_faces import inner_faces
 from floorplan_core.stages.slabs import Level, Slab, with_half_levels
@@ -87,13 +87,14 @@ def _between(slabs: list[list[Slab]], only: Storey, raster: _Raster) -> list[Sto
 
 def restrict_surfels(surfels: SurfelMap, frame: ManhattanFrame, storey: Storey) -> SurfelMap:
     """The surfels of one storey."""
+    storey = storey.along(frame)
     inside = [storey.holds(piece.centroid @ frame.rotation.T) for piece in surfels.pieces(_PIECE)]
     return surfels.select(np.flatnonzero(np.concatenate(inside)))
 
 
 def restrict_path(path: Float, frame: ManhattanFrame, storey: Storey) -> Float:
     """The (M, 3) sensor positions, local frame, that lie in one storey."""
-    return path[storey.holds(frame.to_manhattan(path))] if len(path) else path
+    return path[storey.along(frame).holds(frame.to_manhattan(path))] if len(path) else path
 
 
 def _with_steps(storey: Storey, slabs: list[list[Slab]], raster: _Raster) -> Storey:
@@ -110,7 +111,7 @@ def _with_steps(storey: Storey, slabs: list[list[Slab]], raster: _Raster) -> Sto
 
 def _only_storey(frame: ManhattanFrame) -> Storey:
     low, high = HeightMap.constant(-np.inf), HeightMap.constant(np.inf)
-    return Storey(0, frame.floor_z, frame.ceiling_z, low, high)
+    return Storey(0, frame.floor_z, frame.ceiling_z, low, high, heading=heading(frame))
 
 
 def _with_levels(storey: Storey, surfels: Surfels, inside: Mask, frame: ManhattanFrame) -> Storey:

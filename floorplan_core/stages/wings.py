@@ -47,6 +47,7 @@ _HALF_DOOR = 0.65  # m: space that is nowhere wider than twice this is the openi
 _VOTE = (0.15, 0.3, 0.45)  # m in front of a wall, where the room is that it votes for
 _MIXED = 0.35  # share of a room's walls that is too much for a mistake
 _MIXED_WALLS = 3.0  # m2 of them
+_ACROSS = 0.5  # m2 of them that were hit on each of two sides across from each other
 _WALL_REACH = 0.6  # m around the floor of a part, within which its walls stand
 _DOOR_REACH = 1.2  # m around it, within which free space shows that a door leads out of it
 
@@ -188,12 +189,16 @@ def _floor_of(
     """(ny, nx) cells of the rooms whose walls follow the second direction."""
     straight, follows = walls.along(0.0), walls.askew & walls.along(turn)
     count = int(rooms.max()) + 1
-    votes = [_votes(rooms, walls, mask, evidence, count) for mask in (straight, follows, lines & ~follows)]
-    for_wing = votes[1] > votes[0] + votes[2]  # a round room has walls of all directions
-    for_wing[0] = False
-    cells = for_wing[rooms]
+    asked = ((straight, 0.0), (follows, turn), (lines & ~follows, 0.0))
+    sides = [_votes(rooms, walls, mask, towards, evidence, count) for mask, towards in asked]
+    votes = [side.sum(axis=0) for side in sides]
+    # A hall with one side along the building has walls across from each other in its own direction only.
+    across = [np.minimum(side[:2], side[2:]).max(axis=0) > _ACROSS for side in sides[:2]]
+    most = np.where(across[0] == across[1], votes[1] > votes[0] + votes[2], across[1] & (votes[1] > votes[2]))
+    most[0] = False
+    cells = most[rooms]
     mixed = np.minimum(*votes[:2]) > np.maximum(_MIXED * (votes[0] + votes[1]), _MIXED_WALLS)
-    mixed &= votes[2] < votes[1]
+    mixed &= across[0] & across[1] & (votes[2] < votes[1])  # a round room has walls of all directions
     mixed[0] = False
     if mixed.any():
         nearer = _distance(walls, follows, evidence) < _distance(walls, straight, evidence)
@@ -230,16 +235,19 @@ def _grown_labels(label: NDArray[np.int32], steps: int) -> NDArray[np.int32]:
     return label
 
 
-def _votes(rooms: NDArray[np.int32], walls: WallPatches, mask: Mask, evidence: Evidence, count: int) -> Float:
-    """(count,) m2 of the walls ``mask`` in front of which each room lies."""
-    total = np.zeros(count)
+def _votes(
+    rooms: NDArray[np.int32], walls: WallPatches, mask: Mask, turn: float, evidence: Evidence, count: int
+) -> Float:
+    """(4, count) m2 of the walls ``mask`` in front of which each room lies, by the side that they face."""
+    total = np.zeros((4, count))
     for sign in (-1, 1):
         voted = np.zeros(int(mask.sum()), dtype=np.int32)
         for reach in _VOTE:
             at = walls.xy[mask] + sign * reach * walls.normal[mask]
             voted = np.where(voted == 0, rooms[_cell_index(at, evidence)], voted)
-        total += np.bincount(voted, weights=walls.area[mask], minlength=count)
-    total[0] = 0.0
+        facing = np.round((walls.angle[mask] - turn) / (np.pi / 2) + (1 - sign)).astype(np.int64) % 4
+        np.add.at(total, (facing, voted), walls.area[mask])
+    total[:, 0] = 0.0
     return total
 
 
