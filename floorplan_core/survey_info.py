@@ -21,11 +21,12 @@ from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
 from floorplan_core.replay import path_lengths
 from floorplan_core.stages.askew_walls import TOLD, walls_at_angles
-from floorplan_core.stages.storeys import find_storeys
+from floorplan_core.stages.storeys import find_storeys, is_tall
 from floorplan_core.survey_map import SurveyMap
 
 Float = NDArray[np.float64]
 
+PIECE = 1_000_000  # surfels that are turned together
 ENDS = (0.001, 0.999)  # quantiles between which the building lies: the rest may be ghosts
 
 
@@ -91,6 +92,7 @@ def describe(
     """Read ``survey`` (at most about ``most_points``) and say what it is; never refuses a readable survey."""
     seen, low, high, points, whole = _read(survey, config, observer, most_points)
     frame, why, storeys = _directions(seen, config)
+    xyz = _turned(seen, frame)
     local = survey.local_frame
     return SurveyInfo(
         name=survey.name,
@@ -100,7 +102,7 @@ def describe(
         whole=whole,
         low=low + local.shift,
         high=high + local.shift,
-        size=_size(seen, frame),
+        size=_size(xyz, seen.planar),
         unit=local.unit,
         up=local.up,
         mirrored=bool(np.linalg.det(local.rotation) < 0),
@@ -111,7 +113,7 @@ def describe(
         topics=survey.topics,
         frame=frame,
         no_frame=why,
-        other=_other(seen, frame, storeys, config),
+        other=_other(xyz, seen, storeys, config),
         storeys=() if seen.planar else storeys,
         floor_shift=float(local.shift[2] + seen.own.centre[2]),
         planar=seen.planar,
@@ -136,7 +138,7 @@ def _read(
             low, high = np.minimum(low, chunk.points.min(axis=0)), np.maximum(high, chunk.points.max(axis=0))
         done += len(chunk.points)
         observer.progress("read", done)
-    seen.settle()
+    seen.finish()
     return seen, low if done else np.zeros(3), high if done else np.zeros(3), done, whole
 
 
@@ -151,17 +153,25 @@ def _directions(seen: SurveyMap, config: Config) -> tuple[ManhattanFrame | None,
     except NoPlanError as error:
         return None, str(error), ()
     own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
-    return frame, "", find_storeys(seen.surfels.surfels(), own, config.storeys)
+    some = seen.sample()
+    tall = is_tall(some, own, config.storeys)
+    return frame, "", find_storeys(seen.surfels.surfels() if tall else some, own, config.storeys)
 
 
-def _other(
-    seen: SurveyMap, frame: ManhattanFrame | None, storeys: tuple[Storey, ...], config: Config
-) -> tuple[float, float]:
+def _turned(seen: SurveyMap, frame: ManhattanFrame | None) -> Float:
+    """(N, 3) surfels in the frame where there is one; piece by piece, as nothing else of them is needed."""
+    turn = np.eye(3) if frame is None else frame.rotation @ seen.own.rotation.T
+    out, at = np.empty((len(seen.surfels), 3)), 0
+    for piece in seen.surfels.pieces(PIECE):
+        out[at : at + len(piece)] = piece.centroid @ turn.T
+        at += len(piece)
+    return out
+
+
+def _other(xyz: Float, seen: SurveyMap, storeys: tuple[Storey, ...], config: Config) -> tuple[float, float]:
     """Nothing where so little stands at other angles that the plan would not speak of it."""
-    if frame is None or not storeys:
+    if not storeys:
         return 0.0, 0.0
-    own = replace(frame, rotation=frame.rotation @ seen.own.rotation.T)
-    xyz = seen.surfels.surfels().centroid @ own.rotation.T
     walls, turn = walls_at_angles(xyz, seen.surfels.size, [s.floor_z for s in storeys], config.frame)
     return (turn, walls.share) if walls.area >= TOLD else (0.0, 0.0)
 
@@ -174,13 +184,11 @@ def _other_facts(other: tuple[float, float]) -> dict[str, float] | None:
     return {"from_frame_deg": round(float(np.degrees(angle)), 2), "share": round(share, 4)}
 
 
-def _size(seen: SurveyMap, frame: ManhattanFrame | None) -> Float:
-    if len(seen.surfels) == 0:
+def _size(xyz: Float, planar: bool) -> Float:
+    if len(xyz) == 0:
         return np.zeros(3)
-    centres = seen.surfels.surfels().centroid
-    xyz = centres if frame is None else centres @ (frame.rotation @ seen.own.rotation.T).T
-    low, high = np.quantile(xyz, ENDS, axis=0)
-    return np.asarray((high - low) * (1.0, 1.0, 0.0 if seen.planar else 1.0))  # it was lifted to walls
+    low, high = np.stack([np.quantile(along, ENDS) for along in xyz.T], axis=1)
+    return np.asarray((high - low) * (1.0, 1.0, 0.0 if planar else 1.0))  # it was lifted to walls
 
 
 def _path_facts(path: Trajectory) -> dict[str, float]:
