@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from floorcast_app.events import Event
@@ -40,6 +41,13 @@ class Selection:
             chosen = tuple(i for i in self.items if i != item)
         else:
             chosen = (*self.items, item) if add else (item,)
+        if chosen != self.items:
+            self.items = chosen
+            self.changed.emit()
+
+    def select_all(self, items: Iterable[Item]) -> None:
+        """Select these and nothing else, the last one leading; listeners hear of it once."""
+        chosen = tuple(dict.fromkeys(items))
         if chosen != self.items:
             self.items = chosen
             self.changed.emit()

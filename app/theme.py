@@ -81,7 +81,7 @@ def font(pixels: int = FONT_PIXELS, weight: int = 400, figures: bool = False) ->
 def _load_fonts() -> None:
     from PySide6.QtGui import QFontDatabase
 
-    if FONT_FAMILY in QFontDatabase.families():
+    if QFontDatabase.hasFamily(FONT_FAMILY):  # asked for every text that is drawn
         return
     for path in sorted(resource("fonts").glob("*.ttf")):
         QFontDatabase.addApplicationFont(str(path))

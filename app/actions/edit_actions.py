@@ -45,9 +45,7 @@ def select(workbench: Workbench, kind: str, ids: str | Sequence[str]) -> None:
     missing = [i.id for i in wanted if not workbench.exists(i)]
     if missing:
         raise UsageError(f"There is no {kind} {missing[0]!r}.")
-    workbench.selection.select(None)
-    for item in wanted:
-        workbench.selection.select(item, add=True)
+    workbench.selection.select_all(wanted)
 
 
 def clear_selection(workbench: Workbench) -> None:

@@ -108,9 +108,7 @@ class GroundTruthPanel(Panel):
             return
         chosen = [self.model.item(i.row()) for i in self.table.selectionModel().selectedRows()]
         self._following = True
-        self.workbench.selection.select(chosen[0] if chosen else None)
-        for item in chosen[1:]:
-            self.workbench.selection.select(item, add=True)
+        self.workbench.selection.select_all(chosen)
         self._following = False
 
     def _follow(self) -> None:

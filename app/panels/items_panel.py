@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPoint, QSize, Qt
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QPoint, QSize, Qt
 from PySide6.QtGui import QImage, QMouseEvent, QShowEvent
 from PySide6.QtWidgets import QAbstractItemView, QDockWidget, QHeaderView, QMainWindow, QTableView, QWidget
 
@@ -69,13 +69,14 @@ class ItemTable(QTableView):
         model = self.selectionModel()
         flags = QItemSelectionModel.SelectionFlag
         self._following = True
-        model.clearSelection()
-        for item in self._workbench.selection.items:
-            at = self._index_of(item)
-            if at.isValid():
-                model.select(at, flags.Select | flags.Rows)
-                model.setCurrentIndex(at, flags.NoUpdate)
-                self.scrollTo(at)
+        places = [self._index_of(item) for item in self._workbench.selection.items]
+        rows = QItemSelection()
+        for at in (place for place in places if place.isValid()):
+            rows.select(at, at)
+        model.select(rows, flags.ClearAndSelect | flags.Rows)
+        if (last := next((at for at in reversed(places) if at.isValid()), None)) is not None:
+            model.setCurrentIndex(last, flags.NoUpdate)
+            self.scrollTo(last)
         self._following = False
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -122,11 +123,8 @@ class ItemTable(QTableView):
         chosen = [i.data(ITEM_ROLE) for i in self.selectionModel().selectedRows(OWN)]
         current = self.currentIndex().data(ITEM_ROLE)
         chosen.sort(key=lambda item: item == current)  # the one clicked last leads
-        selection = self._workbench.selection
         self._following = self.leads = True
-        selection.select(None if not chosen else chosen[0])
-        for item in chosen[1:]:
-            selection.select(item, add=True)
+        self._workbench.selection.select_all(chosen)
         self._following = self.leads = False
 
     def _clicked(self, index: QModelIndex) -> None:

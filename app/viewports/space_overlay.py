@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -74,8 +75,10 @@ def _names(painter: QPainter, overlay: Overlay, camera: Camera) -> None:
             continue
         room = label.width * camera.focal / depth  # pixels across the region
         lines = _lines_of(label, overlay.look.units, math.inf if label.item in lit else room)
+        if not lines:
+            continue
         rect = _name_rect(lines, QPointF(x, y))
-        if lines and not any(rect.intersects(other) for other in taken):
+        if not any(rect.intersects(other) for other in taken):
             taken.append(rect)
             _name(painter, lines, rect, label.item, overlay)
 
@@ -90,10 +93,17 @@ def _lines_of(label: Label, units: str, room: float) -> tuple[str, ...]:
 
 def _name_rect(lines: tuple[str, ...], at: QPointF) -> QRectF:
     """Around the name in the first line and what follows in smaller ones."""
-    fonts = (theme.font(NAME_SIZE, 600), theme.font(SMALL_SIZE))
-    widths = [QFontMetricsF(font).horizontalAdvance(text) for font, text in zip(fonts, lines, strict=False)]
+    widths = [
+        _width(text, *font) for font, text in zip(((NAME_SIZE, 600), (SMALL_SIZE, 400)), lines, strict=False)
+    ]
     width, height = max([*widths, 8.0]) + 12, NAME_SIZE + 8.0 + (SMALL_SIZE + 4.0) * (len(lines) - 1)
     return QRectF(at.x() - width / 2, at.y() - height / 2, width, height)
+
+
+@lru_cache(maxsize=1 << 14)
+def _width(text: str, pixels: int, weight: int) -> float:
+    """Pixels that ``text`` takes. Of hundreds of regions it is asked in every frame."""
+    return QFontMetricsF(theme.font(pixels, weight)).horizontalAdvance(text)
 
 
 def _name(painter: QPainter, lines: tuple[str, ...], rect: QRectF, item: Item, overlay: Overlay) -> None:

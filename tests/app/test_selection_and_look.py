@@ -31,6 +31,19 @@ def test_selecting_adding_and_taking_away() -> None:
     assert heard == [(DOOR,), (DOOR, ROOM), (ROOM,), ()]
 
 
+def test_many_things_are_selected_in_one_step() -> None:
+    selection = Selection()
+    selection.select(DOOR)
+    heard: list[tuple[Item, ...]] = []
+    selection.changed.connect(lambda: heard.append(selection.items))
+    many = [Item("region", f"r{k}") for k in range(300)]
+    selection.select_all([*many, many[0]])
+    selection.select_all(many)
+    assert heard == [tuple(many)] and selection.item == many[-1]
+    selection.select_all([])
+    assert heard[1:] == [()]
+
+
 def test_what_a_new_plan_does_not_have_is_not_selected_any_more() -> None:
     selection = Selection()
     selection.select(DOOR)
