@@ -12,6 +12,10 @@ class FloorPlanError(Exception):
 
     exit_status = 4
 
+    def __str__(self) -> str:
+        """The sentence on one line: names of files may hold line ends."""
+        return " ".join(super().__str__().splitlines())
+
 
 class UsageError(FloorPlanError):
     """The call itself is wrong: an unknown option, a value out of bounds, options that exclude each other."""

@@ -8,6 +8,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 
@@ -58,7 +59,7 @@ def check_mesh(path: Path, kind: str) -> None:
         with path.open("rb") as handle:
             head = handle.read(STL_HEAD)
         count = struct.unpack("<I", head[80:84])[0] if len(head) == STL_HEAD else 0
-        if not head.lstrip().startswith(b"solid") and STL_HEAD + STL_RECORD * count > size:
+        if not is_text_stl(head) and STL_HEAD + STL_RECORD * count > size:
             raise InputError(
                 f"{path.name} is truncated: its header promises {count:,} triangles, "
                 f"{max(0, size - STL_HEAD) // STL_RECORD:,} of them exist."
@@ -102,6 +103,8 @@ class _Beside(Mapping[str, bytes]):
         self._folder = folder
 
     def __getitem__(self, uri: str) -> bytes:
+        if "%" in uri and not (self._folder / PurePosixPath(uri).name).is_file():
+            uri = unquote(uri)  # glTF writes spaces and letters beyond ASCII as %20 and the like
         parts = PurePosixPath(uri)
         if parts.is_absolute() or ".." in parts.parts or ":" in uri or "\\" in uri:
             raise InputError(f"The scene refers to {uri[:60]!r} outside its own folder, which is refused.")
@@ -125,8 +128,14 @@ class _Beside(Mapping[str, bytes]):
 
 
 def _ply_has_faces(head: bytes) -> bool:
-    match = re.search(rb"^element\s+face\s+([0-9]+)", head, re.MULTILINE)
-    if match is None or int(match.group(1)) == 0:
+    """True for a mesh; a few triangles among many points, or points with scan ids, are a cloud's."""
+    faces, corners = (
+        int(match.group(1))
+        if (match := re.search(rb"^element\s+%s\s+([0-9]{1,18})" % name, head, re.M))
+        else 0
+        for name in (b"face", b"vertex")
+    )
+    if faces == 0 or 2 * 3 * faces < corners:  # most corners are of no triangle and would be lost
         return False
     names = re.findall(rb"^property\s+\w+\s+(\w+)\s*$", head, re.MULTILINE)
     return find_name([name.decode("latin-1") for name in names], SCAN_ID_NAMES) is None
@@ -146,8 +155,13 @@ def _check_ply(path: Path, size: int) -> None:
         )
 
 
+def is_text_stl(head: bytes) -> bool:
+    """True for the first word of a text STL; some programs write it in capitals."""
+    return head.lstrip()[:5].lower() == b"solid"
+
+
 def _is_stl(path: Path, head: bytes) -> bool:
-    if head.lstrip().startswith(b"solid") and re.search(rb"\bfacet\s+normal\b", head):
+    if is_text_stl(head) and re.search(rb"\bfacet\s+normal\b", head, re.IGNORECASE):
         return True
     if len(head) < STL_HEAD or b"\x00" not in head:
         return False

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from floorcast_plugins._mesh_files import MAX_PLY_HEADER, STL_HEAD
+from floorcast_plugins._mesh_files import MAX_PLY_HEADER, STL_HEAD, is_text_stl
 from floorplan_core.api import InputError, PlyHeader, find_xyz, parse_ply_header
 
 LARGE = 128 << 20  # bytes: smaller files are loaded whole, whatever their format
@@ -41,7 +41,7 @@ def pieces_of(path: Path, kind: str) -> Pieces | None:
         return None
     with path.open("rb") as handle:
         head = handle.read(MAX_PLY_HEADER)
-    if kind == "stl" and not head.lstrip().startswith(b"solid"):
+    if kind == "stl" and not is_text_stl(head):
         count = int.from_bytes(head[80:STL_HEAD], "little")
         return Pieces(count, partial(_stl_corners, path, count))
     return _ply_pieces(path, parse_ply_header(head, path.name)) if kind == "ply" else None

@@ -56,6 +56,7 @@ class RgbdFolder:
     camera: Camera
     scale: float  # depth units in a metre, by the kind of folder
     note: str
+    missing: int = 0  # images that a list names and that are not there
 
 
 def kind_of(folder: Path) -> str:
@@ -78,9 +79,13 @@ def read_folder(folder: Path, given: Path | None) -> RgbdFolder:
     images = _images(folder, kind)
     if not images:
         raise InputError(f"The folder {folder.name} looks like {kind} but holds no depth images.")
-    stamps = [_seconds(image, k) for k, image in enumerate(images)]
+    stamps, missing = [_seconds(image, k) for k, image in enumerate(images)], 0
     if kind == "TUM":
-        images, stamps = _tum_list(folder)
+        named, seconds = _tum_list(folder)
+        there = [image.is_file() for image in named]
+        images = [image for image, here in zip(named, there, strict=True) if here]
+        stamps = [second for second, here in zip(seconds, there, strict=True) if here]
+        missing = len(named) - len(images)
     if given is None and kind in ("ScanNet", "7-Scenes"):
         poses, note = [_pose_beside(image, folder, kind) for image in images], "each has a file with its pose"
     else:
@@ -104,7 +109,7 @@ def read_folder(folder: Path, given: Path | None) -> RgbdFolder:
         )
     scale = TUM_SCALE if kind == "TUM" else MILLIMETRES
     text = f"{folder.name} holds {len(images):,} depth images ({kind}); {note}."
-    return RgbdFolder(kind, frames, len(images) - len(frames), read_camera(folder), scale, text)
+    return RgbdFolder(kind, frames, len(images) - len(frames), read_camera(folder), scale, text, missing)
 
 
 def read_camera(folder: Path) -> Camera:

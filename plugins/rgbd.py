@@ -92,6 +92,10 @@ class RgbdReader:
             observer.warning(
                 f"{folder.without_pose:,} depth images of {path.name} have no pose; they were left out."
             )
+        if folder.missing:
+            observer.warning(
+                f"{folder.missing:,} depth images that {path.name} lists are not there; they were left out."
+            )
         camera = folder.camera
         reading, sentence = find_reading(folder, observer)
         frames = moving_frames(folder.frames, reading)

@@ -69,7 +69,13 @@ def open_survey(
         opened = join_surveys(surveys, given is not None, observer)
     if len(paths) == 1 and paths[0].is_dir():
         opened = replace(opened, name=paths[0].resolve().name)  # says more than points.ply
-    return opened
+    said = tuple(map(printable, opened.assumptions))
+    return replace(opened, name=printable(opened.name), assumptions=said)
+
+
+def printable(text: str) -> str:
+    """``text`` as every file can hold it: names of files may be no UTF-8, and may hold line ends."""
+    return " ".join(text.encode("utf-8", "replace").decode("utf-8").splitlines())
 
 
 def _ahead(survey: Reconstruction, observer: Observer) -> Reconstruction:

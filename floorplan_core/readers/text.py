@@ -108,7 +108,7 @@ def read_form(head: bytes, most_titles: int = 0) -> TextForm | None:
     titles = 0
     lines = _complete_lines(head[offset:])
     for place, line in enumerate(lines):
-        if _numbers(line.strip()) is not None:
+        if _numbers(line.strip(), names) is not None:
             return _form(lines[place:], names, count, offset, titles)
         words = _header_words(line)
         if find_xyz(words) is not None:
@@ -128,7 +128,7 @@ def _form(
 ) -> TextForm | None:
     """The layout where at least half of the lines from the first row on are rows, too."""
     held = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith(COMMENTS)]
-    good = [form for form in map(_numbers, held) if form is not None]
+    good = [form for form in (_numbers(line, names) for line in held) if form is not None]
     if len(good) < min(MIN_ROWS, len(held)) or 2 * len(good) < len(held):
         return None
     separator, comma, columns = good[0]
@@ -142,16 +142,26 @@ def _complete_lines(head: bytes) -> list[str]:
     return lines[:-1] if cut else lines
 
 
-def _numbers(line: str) -> tuple[str, bool, int] | None:
-    """(separator, decimal comma?, columns) of a line that begins with three finite numbers; else None."""
+def _numbers(line: str, names: tuple[str, ...] = ()) -> tuple[str, bool, int] | None:
+    """(separator, decimal comma?, columns) of a line that begins with three finite numbers; else None.
+
+    Where ``names`` of columns say that x, y and z come later, words may stand before them (names of points).
+    """
     if '"' in line:
         if ";" not in line and any("," in quoted for quoted in line.split('"')[1::2]):
             return None  # "1,5","2,5": between quotes a comma is a decimal one, which rows do not tell
         line = line.replace('"', "")
     for separator, comma in _readings(line):
         words = line.replace(separator, " ").split() if separator != " " else line.split()
-        if len(words) >= 3 and all(_is_number(w.replace(",", ".") if comma else w) for w in words[:3]):
+        if comma:
+            words = [word.replace(",", ".") for word in words]
+        if len(words) >= 3 and all(map(_is_number, words[:3])):
             return separator, comma, len(words)
+        if (xyz := find_xyz(names)) is not None:
+            cells = words if separator == " " else line.rstrip(f"{separator} ").split(separator)
+            cells = [cell.replace(",", ".") for cell in cells] if comma else cells
+            if len(cells) == len(names) and all(_is_number(cells[names.index(name)]) for name in xyz):
+                return separator, comma, len(cells)
     return None
 
 

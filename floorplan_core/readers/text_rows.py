@@ -145,11 +145,23 @@ def _parse_by_kernel(block: bytes, layout: TextLayout) -> Float | None:
 def normalise(block: bytes, layout: TextLayout) -> bytes:
     """The block with spaces between its columns and points before its decimals."""
     block = block.replace(b'"', b"")
+    if min(layout.xyz) > 0 and layout.separator != " ":
+        block = _with_whole_cells(block, layout.separator.encode())
     if layout.decimal_comma:
         block = block.replace(b",", b".")
     elif layout.separator == ",":
         block = block.replace(b",", b" ")
     return block.replace(b";", b" ") if layout.separator == ";" else block
+
+
+def _with_whole_cells(block: bytes, separator: bytes) -> bytes:
+    """Cells before the coordinates stay one column each, also where they are empty or hold a space."""
+    block = block.replace(b" ", b"").replace(b"\n" + separator, b"\nnan" + separator)
+    if block.startswith(separator):
+        block = b"nan" + block
+    for _ in range(2):  # of three in a row the middle one is met by the second time only
+        block = block.replace(2 * separator, separator + b"nan" + separator)
+    return block
 
 
 def _parse_at_once(text: bytes, layout: TextLayout) -> Float | None:

@@ -4892,6 +4892,10 @@
    <translation>{0} Tiefenbilder von {1} haben keine Pose; sie wurden weggelassen.</translation>
   </message>
   <message>
+   <source>{0} depth images that {1} lists are not there; they were left out.</source>
+   <translation>{0} Tiefenbilder, die {1} aufzählt, sind nicht da; sie wurden weggelassen.</translation>
+  </message>
+  <message>
    <source>{0} doors</source>
    <translation>{0} Türen</translation>
   </message>

@@ -135,6 +135,32 @@ def test_clouds_stay_clouds(tmp_path):
     assert opened(write_ply(tmp_path / "a.ply", "ascii", xyz_columns(cloud))).format == "PLY"
 
 
+def test_names_that_gltf_escapes(tmp_path):
+    path = write_mesh(tmp_path / "a.gltf", box())
+    tree = json.loads(path.read_text())
+    (tmp_path / tree["buffers"][0]["uri"]).rename(tmp_path / "Büro 1.bin")
+    tree["buffers"][0]["uri"] = "B%C3%BCro%201.bin"
+    path.write_text(json.dumps(tree))
+    assert on_box(whole(opened(path))[0]) < 1e-5
+    tree["buffers"][0]["uri"] = "..%2F..%2Fsecret.bin"
+    path.write_text(json.dumps(tree))
+    assert "outside its own folder" in refusal(path)
+
+
+def test_stl_in_capitals(tmp_path):
+    text = box().export(file_type="stl_ascii").upper()
+    (tmp_path / "a.stl").write_text(text)
+    assert on_box(whole(opened(tmp_path / "a.stl"))[0]) < 1e-5
+
+
+def test_a_cloud_with_a_triangle_is_a_cloud(tmp_path):
+    """Its other points are of no triangle and were lost when it was read as a mesh."""
+    points = np.random.default_rng(2).uniform(0, 1, (500, 3)) * SIZE
+    path = write_mesh(tmp_path / "a.ply", trimesh.Trimesh(points, [[0, 1, 2]], process=False))
+    found, _ = whole(opened(path))
+    np.testing.assert_allclose(found, points, atol=1e-5)
+
+
 def test_nothing_outside_the_folder_is_read(tmp_path):
     inner = tmp_path / "inner"
     inner.mkdir()

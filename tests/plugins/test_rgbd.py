@@ -181,6 +181,21 @@ def test_lost_poses_are_counted(tmp_path):
     assert any(text.startswith("2 depth images") for text in observer.warnings)
 
 
+def test_images_that_a_list_names_and_nobody_has_are_counted(tmp_path):
+    root = write_tum_folder(tmp_path / "run")
+    images = sorted((root / "depth").glob("*.png"))
+    for image in images[::3]:
+        image.unlink()
+    observer = Remembering()
+    survey = opened(root, observer)
+    left = len(images) - len(images[::3])
+    assert len(survey.trajectory) == left
+    assert len(np.unique(whole(survey)[1])) == left
+    assert any(
+        text.startswith(f"{len(images[::3])} depth images that run lists") for text in observer.warnings
+    )
+
+
 def test_images_that_did_not_move_are_left_out(tmp_path):
     root = write_scannet(tmp_path / "run")
     for k in (8, 9):

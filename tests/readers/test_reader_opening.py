@@ -185,3 +185,14 @@ def test_a_registry_brings_other_readers(tmp_path):
     path.write_bytes(b"HEY you")
     assert "damaged (SHOUT: not so loud)" in refused(path, registry=Registry())
     assert "not a point cloud" in refused(path)
+
+
+@pytest.mark.parametrize("name", [b"two\nlines.ply", b"no utf-8 \xff\xfe.ply"])
+def test_names_that_are_no_text(tmp_path, cloud, name):
+    """What is said of a survey goes into files of text, and an error is one line."""
+    path = tmp_path / os.fsdecode(name)
+    survey = open_survey(write_ply(path, "ascii", xyz_columns(cloud)), config=AS_IT_IS)
+    said = "".join([survey.name, *survey.assumptions])
+    assert said.encode("utf-8") and "\n" not in said
+    path.write_bytes(path.read_bytes()[:300])
+    assert "lines.ply" in refused(path) or b"utf" in name

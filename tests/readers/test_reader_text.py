@@ -137,3 +137,30 @@ def test_a_trajectory_is_no_cloud(tmp_path):
     path.write_text("0 1 2 3 0 0 0 1\n" * 20)
     with pytest.raises(InputError, match="is a trajectory, not a point cloud"):
         open_survey(path)
+
+
+@pytest.mark.parametrize("count", [300, 20_000])  # one for each parser
+@pytest.mark.parametrize(
+    ("separator", "decimal", "name"),
+    [(",", ".", "p{}"), (";", ",", "corner {} a"), (";", ".", ""), ("\t", ".", "p{}")],
+)
+def test_points_with_names(tmp_path, count, separator, decimal, name):
+    """As total stations export them: a name, the coordinates, a code."""
+    cloud = np.round(room(np.random.default_rng(4), density=400)[:count], 4)
+    head = separator.join(["Name", "Easting", "Northing", "Elevation", "Code"])
+    rows = [
+        separator.join([name.format(k), *(f"{v:.4f}".replace(".", decimal) for v in p), "wall"])
+        for k, p in enumerate(cloud)
+    ]
+    rows[0] = rows[0] if name else "x" + rows[0]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([head, *rows]) + "\n")
+    points, _ = all_points(open_survey(path, config=AS_IT_IS))
+    np.testing.assert_allclose(points, cloud, atol=1e-4)
+
+
+def test_words_before_numbers_need_names_of_columns(tmp_path, cloud):
+    path = tmp_path / "a.csv"
+    path.write_text("".join(f"p,{line}\n" for line in lines(cloud, ",").splitlines()))
+    with pytest.raises(InputError):
+        open_survey(path, config=AS_IT_IS)
