@@ -57,9 +57,10 @@ def boxes(half: float = 1.4) -> list[Box]:
     ]
 
 
-def house(half: float = 1.4) -> Survey:
-    """Scans from a walk through all of it."""
-    return survey(boxes(half), house_walk(half), noise=0.008, rays=(200, 60))
+def house(half: float = 1.4, roofed: bool = True) -> Survey:
+    """Scans from a walk through all of it; the half level may be open to the sky."""
+    solid = [b for b in boxes(half) if roofed or b[2] != half + HIGH or b[5] != half + HIGH + 0.2]
+    return survey(solid, house_walk(half), noise=0.008, rays=(200, 60))
 
 
 def house_walk(half: float) -> list[tuple[float, float, float]]:

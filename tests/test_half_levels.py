@@ -44,6 +44,17 @@ def test_a_half_level_is_in_the_plan_of_the_nearest_floor(viewpoints):
     assert parts_of(upper, EAST) == pytest.approx(parts_of(upper, LANDING), abs=0.2)
 
 
+@pytest.mark.parametrize("viewpoints", [True, False], ids=["viewpoints", "plain"])
+def test_a_half_level_without_a_ceiling_is_in_one_plan(viewpoints):
+    survey = house(roofed=False)
+    lower, upper = process_storeys(survey.reconstruction(trajectory=viewpoints), IN_THE_FILES_AXES)
+    assert parts_of(lower, WEST) == pytest.approx(36, abs=0.2)
+    assert parts_of(lower, EAST) == pytest.approx(30, abs=0.6)
+    assert all(r.rise == pytest.approx(1.4, abs=0.03) for r in lower.regions if r.area < 35)
+    assert parts_of(upper, WEST) == pytest.approx(36, abs=0.2)
+    assert parts_of(upper, EAST) == pytest.approx(parts_of(upper, LANDING), abs=0.2)
+
+
 def test_the_floor_of_a_half_level_is_in_the_geojson():
     plan = process_storeys(house().reconstruction(), IN_THE_FILES_AXES)[0]
     written = json.loads(geojson_text(plan))

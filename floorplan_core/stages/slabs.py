@@ -23,6 +23,7 @@ _THICK = 0.12  # m, a thinner slab has only one level: both storeys get its poin
 _MARGIN = 0.06  # m around such a level: its noise
 _LEAST = 32  # cells of 0.5 m of a half level or a hall: 8 m2; a stairwell has less without treads
 _ROOFED = 0.3  # share of these over which a ceiling was seen
+_HALF = 0.8  # m from the floors of both storeys: a half level, though nothing above it was seen
 _EQUAL = 0.1  # m: two storeys are as near as each other
 
 
@@ -86,7 +87,8 @@ def with_half_levels(groups: list[list[Slab]], levels: list[Level], height: floa
 def _pieces(
     k: int, cut: float, slabs: list[Slab], levels: list[Level], floors: list[float], height: float
 ) -> Iterator[Slab]:
-    """What stands through the cut above storey ``k``: rooms with a floor below it and a ceiling above it."""
+    """What stands through the cut above storey ``k``: rooms with a floor below it and a ceiling above it, or
+    none where their floor is that of neither storey."""
     taken = np.any([s.seen for s in slabs], axis=0)
     for f in (level for level in levels if level.z < cut):
         lower = [level.seen for level in levels if f.z < level.z < cut]
@@ -96,12 +98,13 @@ def _pieces(
             for c in levels
             if c.z > max(cut, f.z + height) and (c.seen & cells).sum() > _ROOFED * cells.sum()
         ]
-        if not roofs or not cells.any():
-            continue
         apart = [abs(f.z - z) for z in floors]
+        if not cells.any() or not (roofs or min(apart) > _HALF):  # a ceiling may just be unseen
+            continue
         owner = next(n for n, d in enumerate(apart) if d < min(apart) + _EQUAL)
         if owner <= k:
-            yield Slab(roofs[0].z, roofs[0].z, cells, 0, f.z, roof=True)
+            top = roofs[0].z if roofs else f.z + cut - floors[k]  # as high as the storey
+            yield Slab(top, top, cells, 0, f.z, roof=True)
         else:
             yield Slab(f.z, f.z, cells, 0)
 
