@@ -47,6 +47,7 @@ NAME, NOTE, DIMENSION, TITLE = 0.22, 0.15, 0.15, 0.3  # m: heights of text, 3 mm
 LINE = 1.6  # distance of lines over height of text
 ROW = 0.9  # m between the walls and the chain of dimensions, and to the overall one
 HATCH = 0.15  # m between the lines over predicted floor
+VIEW, WIDE = 1.2, 1.5  # height of the first view over that of the plan; width of screens over their height
 STYLE = "FLOORCAST"
 INCHES = 1 / 0.0254  # in a metre
 ARCHITECTURAL = {  # feet, inches and quarters of them beside each other, both also where they are zero
@@ -89,6 +90,7 @@ def dxf_text(plan: FloorPlan, style: DrawingStyle = PLAIN) -> str:
         drawing.draw_doors()
         drawing.draw_dimensions()
         drawing.draw_title()
+        drawing.look_at_it()
         for kind in sorted({entity.dxftype() for entity in drawing.document.entitydb.values()}):
             drawing.document.classes.add_class(kind)  # else in the order of a set, which changes by the run
         stream = io.StringIO()
@@ -124,6 +126,15 @@ class _Drawing:
             self.document.layers.add(name, color=colour, linetype="DASHED" if dashed else "Continuous")
         self._add_dimension_style()
         self.space = self.document.modelspace()
+
+    def look_at_it(self) -> None:
+        """Begin with the plan in view: in land-survey coordinates nothing lies where drawings begin."""
+        x0, y0, x1, y1 = self.plan.bounds
+        corners = self.plan.to_world(np.array([[x0, y0], [x1, y0], [x0, y1], [x1, y1]]))
+        (left, low), (right, high) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+        self.space.reset_extents((left, low, 0.0), (right, high, 0.0))
+        height = VIEW * max(high - low, (right - left) / WIDE)
+        self.document.set_modelspace_vport(height, ((left + right) / 2, (low + high) / 2))
 
     def _add_dimension_style(self) -> None:
         style = self.document.dimstyles.new(STYLE)

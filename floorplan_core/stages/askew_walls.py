@@ -29,6 +29,10 @@ STEEP = math.sin(math.radians(15))  # |z| of the normal of a wall
 BAND = (1.0, 3.0)  # m above the floor, where walls are looked at: little furniture
 _WIDER, _MORE, _WIDEST = 2.0, 1.5, 4.0  # times the usual patch; times as much that it explains; the largest
 _LONG = 1.5  # m between the ends of a line of patches: a door's leaf is shorter
+_AT_ONCE = 2_000_000  # surfels whose patches are fitted together: 300 MB
+_STRIP = 16  # of the widest patches that a strip of a large site is wide: 16 m
+_FAR = 30_000  # strips from the origin, beyond which all are one: stray points
+_ARRAYS = ("xy", "normal", "angle", "area", "surfels")  # of WallPatches
 _PATCHES = 3  # patches that it is long at least
 TOLD = 2.0  # m2 of wall at other angles in no wing, from which the user is told
 
@@ -75,8 +79,39 @@ class AskewWalls:
         )
 
 
-def wall_patches(xyz: Float, surfel: float, config: FrameConfig) -> WallPatches:
-    """The patches of all walls among surfels (N, 3) of ``surfel`` metres; wider ones where noise is thick."""
+def wall_patches(xyz: Float, rows: Mask, surfel: float, config: FrameConfig) -> WallPatches:
+    """The patches of all walls among the ``rows`` of surfels (N, 3) of ``surfel`` metres; wider ones where
+    noise is thick. Of a large site strip by strip, cut between cells; the fullest strip says how wide.
+    """
+    if np.count_nonzero(rows) <= _AT_ONCE:
+        return _patches_of(xyz[rows], surfel, config)
+    strip = _strips(xyz, rows, _STRIP * _WIDEST * config.cell)
+    counts = np.bincount(strip)[1:]
+    places = 1 + np.flatnonzero(counts)
+    first, *others = (1 + np.argsort(-counts, kind="stable")[: len(places)]).tolist()
+    found = {first: _patches_of(xyz[strip == first], surfel, config)}
+    width = found[first].cell
+    for place in others:
+        some = xyz[strip == place]
+        fitted = fit_cell_normals(some, width, config.planarity, most=len(some))
+        found[place] = _walls_of(fitted, some, surfel, width)
+    ordered = [found[place] for place in places.tolist()]
+    joined = {n: np.concatenate([getattr(w, n) for w in ordered]) for n in _ARRAYS}
+    return WallPatches(cell=width, **joined)
+
+
+def _strips(xyz: Float, rows: Mask, width: float) -> NDArray[np.uint16]:
+    """(N,) number of the strip of ``width`` metres along x of a surfel, from 1; 0: not of the rows."""
+    strip = np.zeros(len(xyz), dtype=np.uint16)
+    for start in range(0, len(xyz), _AT_ONCE):
+        part = slice(start, start + _AT_ONCE)
+        number = np.clip(np.floor(xyz[part, 0] / width), -_FAR, _FAR) + _FAR + 1
+        strip[part] = np.where(rows[part], number, 0)
+    return strip
+
+
+def _patches_of(xyz: Float, surfel: float, config: FrameConfig) -> WallPatches:
+    """Those of all of the surfels."""
     best, width = fit_cell_normals(xyz, config.cell, config.planarity, most=len(xyz)), config.cell
     while width < _WIDEST * config.cell:
         wider = fit_cell_normals(xyz, _WIDER * width, config.planarity, most=len(xyz))
@@ -102,7 +137,7 @@ def in_band(z: Float) -> Mask:
 
 def walls_of(evidence: Evidence, config: FrameConfig) -> WallPatches:
     """The patches of the walls of a storey."""
-    return wall_patches(evidence.xyz[in_band(evidence.xyz[:, 2])], evidence.surfel, config)
+    return wall_patches(evidence.xyz, in_band(evidence.xyz[:, 2]), evidence.surfel, config)
 
 
 def in_long_lines(walls: WallPatches, chosen: Mask) -> Mask:
@@ -143,7 +178,7 @@ def walls_at_angles(
     """The walls at other angles than the frame that surfels (N, 3) are in, those of wings too, and the angle
     of most of them, radians. ``floors``: m, of the storeys."""
     rows = np.any([in_band(xyz[:, 2] - floor) for floor in floors], axis=0)
-    walls = wall_patches(xyz[rows], surfel, config)
+    walls = wall_patches(xyz, rows, surfel, config)
     lines = in_long_lines(walls, walls.askew)
     if not lines.any():
         return AskewWalls(0.0, 0.0), 0.0

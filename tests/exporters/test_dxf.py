@@ -54,6 +54,22 @@ def test_rooms_lie_where_they_lie_in_the_world() -> None:
     assert room.symmetric_difference(shapely.Polygon(corners)).area < 1e-3
 
 
+def test_it_opens_with_the_plan_in_view() -> None:
+    """In land-survey coordinates; a drawing that says nothing opens at the origin, which is empty there."""
+    plan = small_flat()
+    shift = np.array([691_234.0, 5_334_567.0, 0.0])
+    plan = replace(plan, local_frame=replace(plan.local_frame, shift=shift))
+    document = read(plan)
+    low, high = np.array(document.header["$EXTMIN"]), np.array(document.header["$EXTMAX"])
+    x0, y0, x1, y1 = shapely.total_bounds(
+        [shapely.Polygon(plan.to_world(r.polygon.exterior.coords)) for r in plan.regions]
+    )
+    assert low[:2] == pytest.approx((x0, y0), abs=1.0) and high[:2] == pytest.approx((x1, y1), abs=1.0)
+    view = document.viewports.get("*Active")[0].dxf
+    assert tuple(view.center)[:2] == pytest.approx(((x0 + x1) / 2, (y0 + y1) / 2), abs=0.01)
+    assert y1 - y0 < view.height < 3 * (x1 - x0)
+
+
 def test_what_is_predicted_has_layers_of_its_own() -> None:
     plan = l_corridor()
     document = read(plan)
