@@ -11,6 +11,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
@@ -40,6 +41,8 @@ _HOLE = 0.4  # m, too narrow to pass
 _LINTEL_HOLE = 1.0  # m, the same of a lintel, where as much was seen of it on both sides
 _JAMB_HOLE = 0.6  # m, the same between a lintel and the wall that carries it
 _LINTEL, _LINTEL_SHARE = 0.4, 0.5  # m beside such a hole, and the share of it that must show lintel
+_JAMB_PIECE = 0.25  # m of wall that is a jamb
+_SOME_LINTEL = 0.4  # share of a doorway between two jambs under a lintel, where the rest of it was not seen
 _EXACT = 1e-6  # m
 _DEPTH = 0.4  # m behind a surface that must be free for a passage through the wall
 
@@ -255,7 +258,7 @@ def wall_runs(profile: WallProfile, config: PlanesConfig, doors: DoorsConfig) ->
     under a lintel is part of the wall (its opening is reported as a door or opening).
     """
     solid = _close(is_solid(profile), 2)
-    lintel = (profile.high > 0) & ~solid
+    lintel = _whole_lintels((profile.high > 0) & ~solid, solid, profile.step, doors.max_beamless)
     wall = _close(solid | lintel, round(_HOLE / 2 / profile.step))  # beside the jambs a lintel is seen least
     joined: list[list[int]] = []
     for a, b in runs_of(wall).tolist():
@@ -292,6 +295,17 @@ def _is_hidden(profile: WallProfile, a: int, b: int, config: PlanesConfig) -> bo
     """True where cells a to b are unseen rather than open."""
     through = profile.through[a:b]
     return (b - a) * profile.step <= config.bridge and float((through > 0.15).mean() if b > a else 0.0) < 0.2
+
+
+def _whole_lintels(
+    lintel: NDArray[np.bool_], solid: NDArray[np.bool_], step: float, widest: float
+) -> NDArray[np.bool_]:
+    """The lintels; whole between two jambs at most ``widest`` metres apart, where enough was seen of one."""
+    pieces = [r for r in runs_of(solid).tolist() if (r[1] - r[0]) * step >= _JAMB_PIECE]
+    for (_, a), (b, _) in pairwise(pieces):
+        if (b - a) * step <= widest + 2 * step and float(lintel[a:b].mean()) >= _SOME_LINTEL:
+            lintel[a:b] = ~solid[a:b]
+    return lintel
 
 
 def _is_in_lintel(lintel: NDArray[np.bool_], solid: NDArray[np.bool_], a: int, b: int, step: float) -> bool:

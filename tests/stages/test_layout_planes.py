@@ -61,6 +61,18 @@ def test_a_lintel_seen_in_stripes_is_one_lintel() -> None:
     assert len(striped((4.2, 5.0))) == 2, "nothing hangs before the other jamb"
 
 
+@pytest.mark.parametrize(("seen", "count"), [(0.8, 1), (0.5, 2)])
+def test_a_doorway_between_two_jambs_has_a_lintel_of_which_a_part_was_seen(seen: float, count: int) -> None:
+    parts: Parts = {(2.0, 4.0): 0.9, (5.8, 8.0): 0.9}
+    found = runs(parts, {(4.0, 5.8): 1.0}, {(4.0, 4.0 + seen): 0.2})
+    assert len(found) == count
+
+
+def test_a_wider_gap_needs_more_of_its_lintel() -> None:
+    parts: Parts = {(2.0, 4.0): 0.9, (6.6, 8.5): 0.9}
+    assert len(runs(parts, {(4.0, 6.6): 1.0}, {(4.0, 5.2): 0.2})) == 2
+
+
 def test_a_speck_in_a_gap_is_no_lintel() -> None:
     parts: Parts = {(2.0, 4.0): 0.9, (5.4, 8.0): 0.9}
     assert len(runs(parts, {(4.0, 5.4): 1.0}, {(4.65, 4.75): 0.2})) == 2
