@@ -20,7 +20,7 @@ INTRODUCTION = """# Accuracy
 Written by `make accuracy` (`python -m benchmarks.accuracy`); do not edit. Simulated surveys vary style,
 sensor, exploration, furniture, noise and drift together; settings are tuned on the first half of the seeds
 only, so the *held out* column counts. A number that misses its target carries a cross. Every survey weighs
-the same in a mean.
+the same in a mean. Every sensor with every noise and every clutter: [robustness](robustness.md).
 
 - **dimension error**: the plan's own distance between two wall faces against the truth's, in rooms that
   were entered. A line is shot both ways from the middle of the true dimension to the boundary of the region
