@@ -37,6 +37,7 @@ _NARROWEST = (
 _CORNER = 1.8  # m between the end of a line and the wall across at which it ends: a door beside the corner
 _STANDS = 0.12  # of the height below 2 m, seen: wall
 _JAMB = 0.5  # m of hidden wall at most that a passage seen at a slant is widened by, on either side
+_SILL = 0.15, 0.75  # m above the floor at which wall stands below a window; cabinets leave gaps there
 _WIDEST = 1.6  # m: a wider passage is the mouth of a corridor, and no door
 _BESIDE = 1.0  # m from a passage, in which a plane is a face of the wall that it passes
 _CONFIDENCE = 0.6  # a door that the line of the wall and free space show
@@ -143,8 +144,9 @@ def _passages(
     alone = [not ((sure[:, 0] < b) & (sure[:, 1] > a)).any() for a, b in edges]
     edges = np.concatenate([sure, edges[np.array(alone, dtype=bool)]])
     out = []
+    sill = _sills(planes, evidence)[: len(at)]
     for a, b in edges:
-        if (b - a) * profile.step < _NARROWEST:
+        if (b - a) * profile.step < _NARROWEST or sill[a:b].all():
             continue
         most = max(round(config.aperture / profile.step), b - a)
         first, last = _widened(stands, int(a), int(b), round(_JAMB / profile.step), int(most))
@@ -155,14 +157,27 @@ def _passages(
 def _passed(planes: Sequence[LayoutPlane], evidence: Evidence) -> Float:
     """(B,) share of a body's height that is free, in bins of the profiles, from before to behind the planes:
     the least on the way."""
+    body = height_mask(*_BODY)
+    free = _band(evidence.free, planes, evidence) & body
+    return np.repeat(count_bits(free).min(axis=1) / int(body).bit_count(), 2)
+
+
+def _sills(planes: Sequence[LayoutPlane], evidence: Evidence) -> Mask:
+    """(B,) bins of the profiles in which wall stands at the height of one's knees: no way for anybody."""
+    knees = height_mask(*_SILL)
+    seen = np.bitwise_or.reduce(_band(evidence.occupied, planes, evidence) & knees, axis=1)
+    return np.repeat(count_bits(seen) == int(knees).bit_count(), 2)
+
+
+def _band(
+    columns: NDArray[np.uint64], planes: Sequence[LayoutPlane], evidence: Evidence
+) -> NDArray[np.uint64]:
+    """The columns along a wall (first axis), from before to behind its planes."""
     axis = planes[0].facing.axis
-    free = evidence.free if axis == 0 else evidence.free.T
     offsets = [p.offset for p in planes]
     low, high = min(offsets) - _SKIN, max(offsets) + _SKIN
     first, last = (int((v - evidence.origin[axis]) / evidence.cell) for v in (low, high))
-    band = free[:, max(first, 0) : last + 1]
-    body = height_mask(*_BODY)
-    return np.repeat(count_bits(band & body).min(axis=1) / int(body).bit_count(), 2)
+    return (columns if axis == 0 else columns.T)[:, max(first, 0) : last + 1]
 
 
 def _widened(stands: Mask, a: int, b: int, reach: int, most: int) -> tuple[int, int]:
