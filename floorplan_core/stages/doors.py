@@ -62,7 +62,7 @@ def find_candidates(
     """The apertures of every plane with their measures; ``lintels``: the survey shows any at all."""
     crossing = {a: crossing_walls(planes, a) for a in (0, 1)}
     # without viewpoints what is free was inferred, and tells nothing of where a wall goes on unseen; where no
-    # lintel tells a doorway, one that ends at a corner must not be taken for the hidden end of a wall (Intel lab)
+    # lintel tells a doorway, one beside a corner must not be taken for the hidden end of a wall (Intel lab)
     reaching = {a: reaching_walls(planes, a) for a in (0, 1)} if evidence.viewpoints and lintels else crossing
     alike = {f: crossing_walls([p for p in planes if p.facing == f], f.axis) for f in Facing}
     found = []
