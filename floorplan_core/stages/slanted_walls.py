@@ -18,7 +18,7 @@ import shapely
 from numpy.typing import NDArray
 
 from floorplan_core.geometry.columns import by_strips, count_bits, height_mask, merged
-from floorplan_core.geometry.masks import measure_patches, opened, widened
+from floorplan_core.geometry.masks import label_patches, measure_patches, opened, widened
 from floorplan_core.geometry.raster import polygon_window
 from floorplan_core.geometry.rectilinear import open_polygon, polygons_of
 from floorplan_core.model import FREE, OccupancyGrid
@@ -41,6 +41,7 @@ _SLANT = 0.17  # rad from the axes: less is a wall of the frame
 _ANGLED = 0.5  # of what stands on the border must run at an angle
 _AT_ONCE = 500  # places looked at together
 _LEAST = 0.3  # m2 of a pocket
+_FLOORED = 0.05  # of the floor of a room is seen at least
 _STEP = 3  # cells of a step along the wall
 
 
@@ -51,6 +52,7 @@ class StandingCells:
     grid: OccupancyGrid
     cells: Bool  # (ny, nx)
     elsewhere: Any = None  # polygons of what is in the plan of another storey, as where a gallery ends
+    floor: Bool | None = None  # (ny, nx) over or under which something was seen, where free space is inferred
 
     def cut(self, polygon: Any, sliver: float) -> Any:
         """``polygon`` without what lies behind slanted walls or elsewhere; itself where that is nothing.
@@ -64,7 +66,10 @@ class StandingCells:
         stands = self.cells[window] & inside
         if stands.sum() * grid.cell < _LONG:
             return polygon
-        behind = _behind(stands, inside, grid.states[window] == FREE, grid.cell)
+        free = grid.states[window] == FREE
+        if self.floor is not None:
+            free = _with_floor(free, self.floor[window], inside & ~stands)
+        behind = _behind(stands, inside, free, grid.cell)
         if not behind.any():
             return polygon
         corner = grid.origin + grid.cell * np.array([window[1].start, window[0].start])
@@ -96,7 +101,9 @@ def standing_cells(evidence: Evidence, grid: OccupancyGrid) -> StandingCells:
     found = by_strips(evidence.hits, _heights)
     around = [widened((found & part) != 0) for part in (_FOOT, _HEAD)]
     cells = ((found & _BODY) != 0) & around[0] & around[1]
-    return StandingCells(grid, cells, None if evidence.elsewhere is None else straight_outline(evidence))
+    elsewhere = None if evidence.elsewhere is None else straight_outline(evidence)
+    floor = (evidence.free & height_mask(*_BETWEEN)) != 0 if evidence.inferred else None
+    return StandingCells(grid, cells, elsewhere, floor)
 
 
 def _heights(hits: Bits) -> NDArray[np.uint8]:
@@ -106,6 +113,16 @@ def _heights(hits: Bits) -> NDArray[np.uint8]:
     full = count_bits(closed & between) >= _FULL * int(between).bit_count()
     ends = [np.where(columns & height_mask(*part) != 0, np.uint8(name), np.uint8(0)) for part, name in _ENDS]
     return np.asarray(ends[0] | ends[1] | np.where(full, _BODY, np.uint8(0)))
+
+
+def _with_floor(free: Bool, floor: Bool, between: Bool) -> Bool:
+    """``free`` without those parts of the cells ``between`` walls in which hardly any floor was seen.
+
+    Free space is only guessed there, from places to stand on the other side of a gap in a wall.
+    """
+    label, count = label_patches(between)
+    cells, seen = (np.bincount(label[m], minlength=count + 1) for m in (between, between & floor))
+    return np.asarray(free & (seen >= _FLOORED * cells)[label])
 
 
 def _behind(stands: Bool, inside: Bool, free: Bool, cell: float) -> Bool:
