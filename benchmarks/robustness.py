@@ -2,9 +2,10 @@
 
 Every sensor meets every noise and every clutter in the same few buildings, of which six rooms in ten are
 entered; everything else is as in :mod:`benchmarks.accuracy`, whose functions simulate (once), plan and judge.
-Nothing is tuned on these seeds. Figures go to ``benchmarks/results/robustness.json`` and, as a table, to
-``docs/robustness.md``; with ``--seed``, ``--only`` or ``--no-save`` they are only shown. A first run takes
-about five minutes of CPU, most of them to simulate; a later one about two.
+Rules were made on what these seeds showed; ``--seed`` makes others. Figures go to
+``benchmarks/results/robustness.json`` and, as a table, to ``docs/robustness.md``; with ``--seed``, ``--only``
+or ``--no-save`` they are only shown. A first run takes about five minutes of CPU, most of them to simulate; a
+later one about two.
 """
 
 from __future__ import annotations
@@ -44,8 +45,9 @@ INTRODUCTION = f"""# Sensors, noise and clutter
 
 Written by `python -m benchmarks.robustness`; do not edit. Each row is the mean of {len(BUILDINGS)} simulated
 surveys: the same buildings, of which {EXPLORE:.0%} of the rooms were entered, in every row. What the columns
-mean: [accuracy](accuracy.md). Nothing was tuned on these seeds; noise is of each range, along its ray.
-What comes out wrong, and why: [limits](limits.md).
+mean: [accuracy](accuracy.md). Noise is of each range, along its ray. These seeds were looked at for rules
+([how](decisions/0023-door-evidence.md)) and are blind for them no more; `--seed` makes others. What comes out
+wrong, and why: [limits](limits.md).
 """
 
 
