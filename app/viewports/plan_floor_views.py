@@ -166,17 +166,19 @@ def fitting_lines(frame: Frame, shape: RegionShape) -> tuple[list[tuple[str, int
     rooms of a small pane look alike.
     """
     units, scale = frame.look.units, frame.camera.scale
+    room, height = shape.seat.width * scale, shape.spot.height * scale
+    if height < NAME * LEADING and room < SMALL:  # as most rooms of a site seen whole: nothing is measured
+        return [], shape.seat
     lines = [(tr_text(shape.name), NAME, 600), (format.area(shape.area, units), BODY, 400)]
     if shape.clear is not None:
         pair = zip(shape.clear, shape.nearly, strict=True)
         lines.append((" × ".join(written(v, units, nearly) for v, nearly in pair), SMALL, 400))
-    width, height = shape.spot.width * scale, shape.spot.height * scale
+    width = shape.spot.width * scale
     least = 2 if shape.short.isdecimal() else 1
     for n in range(len(lines), least - 1, -1):
         wide = max(text_size(*line)[0] for line in lines[:n])
         if wide + AIR <= width and sum(p * LEADING for _, p, _ in lines[:n]) <= height:
             return lines[:n], shape.spot
-    room = shape.seat.width * scale
     for pixels in (BODY, SMALL):
         short = (shape.short, pixels, 600)
         if text_size(*short)[0] <= room and pixels <= room:
