@@ -53,6 +53,7 @@ _NOWHERE = 1e9  # m, beyond any building
 _BESIDE = 0.6  # m between a door and a run of the other face of its wall
 _STEP = 0.4  # m off a chord, where the spaces that it parts are looked up
 _FEW_DOORS = 3  # that a room may have; a space with more is a corridor or a hall
+_TWICE = 0.5  # share of the narrower of two doors that both have in common, from which they are one
 _CONFIDENCE = 0.6  # a door that only the plan shows, no lintel
 
 
@@ -90,7 +91,9 @@ def find_necks(
         if space.parts(chord):
             space.close(chord)
             found.append(chord)
-    kept = shut + [c.door or _door(c, planes, config) for c in _healed(found, space, config)]
+    healed = _healed(found, space, config)
+    known = shut + [c.door for c in healed if c.door is not None]
+    kept = known + _once([_door(c, planes, config) for c in healed if c.door is None], known)
     kept.sort(key=lambda d: (d.axis, d.offset, d.start))
     return tuple(replace(d, id=f"d{k + 1}") for k, d in enumerate(kept))
 
@@ -216,6 +219,26 @@ def _healed(found: Sequence[_Chord], space: _Space, config: DoorsConfig) -> list
         if not (one != other and {one, other} <= many - {0})
         or (min(c.flanks) >= _JAMB and c.width <= config.max_width)
     ]
+
+
+def _once(necks: Sequence[Door], known: Sequence[Door]) -> list[Door]:
+    """The necks without those at a door that other evidence tells, or that another face of the wall told.
+
+    Both faces of a wall have a gap at a doorway, and closing the line of one leaves that of the other open.
+    """
+    kept: list[Door] = []
+    for neck in necks:
+        if not any(_same(neck, door) for door in (*known, *kept)):
+            kept.append(neck)
+    return kept
+
+
+def _same(one: Door, other: Door) -> bool:
+    """True for two doors in one place of one wall."""
+    shared = min(one.end, other.end) - max(one.start, other.start)
+    near = abs(one.offset - other.offset) <= max(one.thickness, other.thickness) / 2 + _LINE
+    least = min(one.end - one.start, other.end - other.start)
+    return one.axis == other.axis and near and shared > _TWICE * least
 
 
 def _widest(width: float) -> float:

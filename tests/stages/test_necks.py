@@ -112,3 +112,15 @@ def test_a_shut_door_stays_though_nothing_passes_it() -> None:
     boxes, planes = room_beyond((6.0, 7.0), 4.0, 9.0)
     shut = Door("d1", ("c",), 1, 3.0, 11.0, 12.0, evidence=("shut",))
     assert [d.start for d in necks(boxes, planes, (shut,))] == [11.0, 6.0]
+
+
+def test_one_doorway_is_one_door() -> None:
+    """What was found there by other evidence is wider than the gap, so that the gap comes first."""
+    boxes, planes = room_beyond((6.0, 7.0), 4.0, 9.0)
+    thick = [planes[0], planes[1], face("r", Facing.NORTH, 3.3, planes[2].walls.tolist()), *planes[3:]]
+    boxes = [boxes[0], (6.0, 3.0, 7.0, 3.3), (4.0, 3.3, 9.0, 8.0)]
+    known = Door("d1", ("r", "c"), 1, 3.15, 5.95, 7.05, thickness=0.3, evidence=("open", "passage"))
+    (door,) = necks(boxes, thick, (known,))
+    assert door.evidence == ("open", "passage")
+    (alone,) = necks(boxes, thick)
+    assert alone.evidence[0] == "narrow between two spaces"
