@@ -210,8 +210,8 @@ def connect_doors(
 ) -> tuple[tuple[Region, ...], tuple[Door, ...]]:
     """Which one or two regions each door joins: those just beyond its two faces. Others are dropped.
 
-    So is a gap beside furniture that was taken for a wall: where doors of the survey show lintels, it shows
-    none, nor the same opening in another face, and leads out of a region into none.
+    So is a gap beside furniture that was taken for a wall, or a window: where doors of the survey show
+    lintels, it shows none, nor a passage through both faces of a wall, and leads out of a region into none.
     """
     lintels = any("lintel" in d.evidence for d in doors)
     tree = shapely.STRtree([r.polygon for r in regions])
@@ -228,9 +228,10 @@ def connect_doors(
 
 
 def _is_bare(door: Door) -> bool:
-    """True for an aperture that only free space shows, in one face of what may be no wall."""
+    """True for an aperture without a lintel that one face of what may be no wall shows, or no passage."""
     words = set(door.evidence)
-    return not door.by_hand and {"open", "passage"} <= words and not {"lintel", "both faces"} & words
+    shown = "lintel" in words or {"passage", "both faces"} <= words
+    return "open" in words and not door.by_hand and not shown
 
 
 def _behind(door: Door, sign: int, regions: Sequence[Region], tree: shapely.STRtree) -> str:

@@ -32,6 +32,7 @@ def linked(
 def test_a_door_out_of_the_building_shows_a_lintel_or_its_other_face(words: tuple[str, ...]) -> None:
     assert linked(words, beyond=False)
     assert not linked(BARE, beyond=False)
+    assert not linked(("open", "wall on both sides", "both faces"), beyond=False), "a window"
 
 
 def test_a_bare_gap_between_two_regions_or_by_hand_or_in_a_planar_run_stays() -> None:
