@@ -41,7 +41,7 @@ from floorplan_core.model import (
 from floorplan_core.model.corrections import Correction
 from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.observer import Observer
-from floorplan_core.plugins import RegionClassifier, find_classifier
+from floorplan_core.plugins import classifier_of
 from floorplan_core.stages.candidates import pair_planes
 from floorplan_core.stages.corrections import Remarks, in_plan
 from floorplan_core.stages.corrections_doors import correct_doors
@@ -61,7 +61,7 @@ from floorplan_core.stages.grid_map_spaces import (
     space_problems,
 )
 from floorplan_core.stages.grid_map_walls import Boundary, find_boundary, wall_planes, wall_segments
-from floorplan_core.stages.labels import PaperClassifier, label_regions
+from floorplan_core.stages.labels import label_regions
 from floorplan_core.stages.region_names import RegionNames, in_reading_order
 from floorplan_core.stages.regions import build_regions, connect_doors
 from floorplan_core.stages.set_cover import cover as cover_free_space
@@ -144,7 +144,7 @@ def plan_grid_map(
             f"No region came out of {grid_map.name}: no enclosed free space is larger than "
             f"{config.regions.min_area:g} m2; check the resolution and the thresholds of the map."
         )
-    regions = stage("labels", lambda: label_regions(regions, _classifier(config), config), regions, config)
+    regions = stage("labels", lambda: label_regions(regions, classifier_of(config), config), regions, config)
     if names is not None:
         regions, doors = names(regions, doors, 0)
     regions, remarks = correct_names(regions, say.names)
@@ -337,11 +337,6 @@ def _by_outline(space: _Solved) -> Region | None:
 def _all_planes(planes: tuple[LayoutPlane, ...], solved: list[_Solved]) -> tuple[LayoutPlane, ...]:
     """The observed planes, then the speculated ones that the spaces needed."""
     return (*planes, *(p for s in solved for p in s.planes if p.speculated))
-
-
-def _classifier(config: Config) -> RegionClassifier:
-    name = config.labels.classifier
-    return PaperClassifier() if name == PaperClassifier.name else find_classifier(name)
 
 
 def _warnings(

@@ -11,7 +11,7 @@ from floorplan_core.layout_wings import add_wings
 from floorplan_core.model import Wing
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.observer import Observer
-from floorplan_core.stages.askew_walls import AskewWalls, askew_walls
+from floorplan_core.stages.askew_walls import AskewWalls, WallsOnce, askew_walls
 from floorplan_core.stages.corrections import Said, said_of_part
 from floorplan_core.stages.corrections_islands import said_of_buildings
 from floorplan_core.stages.wings import Part, floor_of_wings
@@ -25,12 +25,12 @@ def said_of_first(say: Said, parts: tuple[Part, ...]) -> Said:
     return said_of_part(say, 0, [part.turn for part in parts])
 
 
-def askew_of(parts: tuple[Part, ...], seen: Evidence, config: Config) -> AskewWalls:
+def askew_of(parts: tuple[Part, ...], seen: Evidence, patches: WallsOnce) -> AskewWalls:
     """The walls that follow no frame of the plan; ``seen`` as in :func:`add_parts`."""
     if parts and parts[0].apart:
         whole = [(part.evidence, np.zeros(part.evidence.shape, dtype=bool)) for part in parts]
-        return askew_walls(whole, config.frame)
-    return askew_walls([(seen, floor_of_wings(parts[1:], seen))], config.frame)
+        return askew_walls(whole, patches)
+    return askew_walls([(seen, floor_of_wings(parts[1:], seen))], patches)
 
 
 def add_parts(

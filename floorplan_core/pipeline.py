@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +41,8 @@ from floorplan_core.model.floor_plan import by_hand
 from floorplan_core.model.quarter_turns import quarters_to_world
 from floorplan_core.model.storey import Storey
 from floorplan_core.observer import Observer
+from floorplan_core.plugins import classifier_of
+from floorplan_core.stages.askew_walls import WallsOnce
 from floorplan_core.stages.corrections import Remarks, in_plan
 from floorplan_core.stages.corrections_doors import lost_doors
 from floorplan_core.stages.corrections_regions import correct_names
@@ -56,9 +57,6 @@ from floorplan_core.stages.voxel_columns import LARGEST, gather_evidence
 from floorplan_core.stages.wings import Part, find_wings, part_of, same_floor, wing_frame
 from floorplan_core.steps import StageRunner, StepMemory
 from floorplan_core.survey_map import SurveyMap
-
-if TYPE_CHECKING:
-    from floorplan_core.plugins import RegionClassifier
 
 Float = NDArray[np.float64]
 MIN_SURFELS = 200  # fewer occupied voxels hold no room
@@ -132,12 +130,15 @@ class FloorPlanner:
             something else are run again.
         """
         self.map.settle()
-        config, before = self.config, {"integrate": self.map.seconds, "frame": self._ahead}
+        config, patches = self.config, WallsOnce(self.config.frame)
+        before = {"integrate": self.map.seconds, "frame": self._ahead}
         stage, self._ahead = StageRunner(self.observer, given, before, memory), 0.0
 
         frame = stage("frame", lambda: self._frame_of(storey), config.frame, config.storeys)
         evidence = stage("occupancy", lambda: self._largest_of(storey, frame), frame, config.voxels)
-        parts = stage("occupancy", lambda: self._parts_of(storey, frame, evidence), evidence, config.frame)
+        parts = stage(
+            "occupancy", lambda: self._parts_of(storey, frame, evidence, patches), evidence, config.frame
+        )
         if not all(isinstance(part, Part) for part in parts):
             raise InputError("These stages were kept by another version; run again with --save-stages.")
         say = stage.correct("frame", lambda: in_plan(corrections, frame), frame, tuple(corrections))
@@ -151,13 +152,15 @@ class FloorPlanner:
             )
         else:
             made, wings = lay_out(evidence, config, stage, self.observer, say), ()
-        askew = stage.correct("askew", lambda: askew_of(parts, evidence, config), parts, evidence, config)
+        askew = stage.correct("askew", lambda: askew_of(parts, evidence, patches), parts, evidence, config)
         frame, said = replace(frame, askew=askew.share), made.remarks + Remarks(warnings=askew.warnings())
         segments, planes, doors, grid = made.segments, made.planes, made.doors, made.grid
         regions, cover = made.regions, made.cover
         shown = (*segments, *(s for wing in wings for s in wing.segments))
         regions, doors = stage("regions", lambda: connect_doors(regions, doors), regions, doors)
-        regions = stage("labels", lambda: label_regions(regions, self._classifier(), config), regions, config)
+        regions = stage(
+            "labels", lambda: label_regions(regions, classifier_of(config), config), regions, config
+        )
         said += lost_doors(made.doors, doors)
         seen = [part.evidence for part in parts if part.apart] or [evidence]
         points = stage("regions", lambda: site_points(seen, shown), evidence, shown)
@@ -276,14 +279,16 @@ class FloorPlanner:
             surfels.leave_memory()
             require_memory(needed, what)
 
-    def _parts_of(self, storey: int, frame: ManhattanFrame, evidence: Evidence) -> tuple[Part, ...]:
+    def _parts_of(
+        self, storey: int, frame: ManhattanFrame, evidence: Evidence, patches: WallsOnce
+    ) -> tuple[Part, ...]:
         """The evidence of the building and of each wing that stands at another angle, or of each of the
         buildings that stand apart; () where there is one building without wings."""
         islands = self._islands(storey, frame)
         if len(islands) > 1:
             others = [self._evidence_of(storey, frame, island) for island in islands[1:]]
             return tuple(Part(0.0, e, np.ones(e.shape, dtype=bool), apart=True) for e in (evidence, *others))
-        wings = find_wings(evidence, self.config.frame) if self.config.frame.wings else ()
+        wings = find_wings(evidence, self.config.frame, patches) if self.config.frame.wings else ()
         if not wings:
             return ()
         building, parts = ~np.any([wing.cells for wing in wings], axis=0), []
@@ -342,15 +347,6 @@ class FloorPlanner:
         for text in warnings:
             self.observer.warning(text)
         return tuple(warnings)
-
-    def _classifier(self) -> RegionClassifier:
-        from floorplan_core.stages.labels import PaperClassifier
-
-        if self.config.labels.classifier == PaperClassifier.name:
-            return PaperClassifier()
-        from floorplan_core.plugins import find_classifier
-
-        return find_classifier(self.config.labels.classifier)
 
 
 def process(

@@ -192,6 +192,12 @@ def default_registry() -> PluginRegistry:
     return PluginRegistry().discover()
 
 
-def find_classifier(name: str) -> RegionClassifier:
-    """The region classifier called ``name``; :class:`UsageError` that lists those there are otherwise."""
-    return default_registry().classifier(name)
+def classifier_of(config: Config) -> RegionClassifier:
+    """The region classifier that the settings name; :class:`UsageError` lists those there are otherwise.
+
+    The paper's needs no search for plugins.
+    """
+    from floorplan_core.stages.labels import PaperClassifier
+
+    name = config.labels.classifier
+    return PaperClassifier() if name == PaperClassifier.name else default_registry().classifier(name)

@@ -140,6 +140,20 @@ def walls_of(evidence: Evidence, config: FrameConfig) -> WallPatches:
     return wall_patches(evidence.xyz, in_band(evidence.xyz[:, 2]), evidence.surfel, config)
 
 
+class WallsOnce:
+    """:func:`walls_of`, once for the evidence that is asked for again."""
+
+    def __init__(self, config: FrameConfig) -> None:
+        self._config = config
+        self._last: tuple[Evidence, WallPatches] | None = None
+
+    def __call__(self, evidence: Evidence) -> WallPatches:
+        """The patches of the walls in ``evidence``."""
+        if self._last is None or self._last[0] is not evidence:
+            self._last = evidence, walls_of(evidence, self._config)
+        return self._last[1]
+
+
 def in_long_lines(walls: WallPatches, chosen: Mask) -> Mask:
     """(P,) which of the ``chosen`` patches touch each other in long lines, straight or curved."""
     lines = np.zeros(len(chosen), dtype=bool)
@@ -162,11 +176,11 @@ def in_long_lines(walls: WallPatches, chosen: Mask) -> Mask:
     return lines
 
 
-def askew_walls(seen: Sequence[tuple[Evidence, Mask]], config: FrameConfig) -> AskewWalls:
+def askew_walls(seen: Sequence[tuple[Evidence, Mask]], patches: WallsOnce) -> AskewWalls:
     """The walls that are in no wing; ``seen`` holds evidence, each with the cells of its wings and around."""
     askew = total = 0.0
     for evidence, wings in seen:
-        walls = walls_of(evidence, config)
+        walls = patches(evidence)
         lines = in_long_lines(walls, walls.askew) & ~over_cells(wings, walls.xy, evidence)
         askew, total = askew + float(walls.area[lines].sum()), total + float(walls.area.sum())
     return AskewWalls(askew, askew / total if total else 0.0)

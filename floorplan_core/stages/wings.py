@@ -24,11 +24,11 @@ from floorplan_core.model import ManhattanFrame
 from floorplan_core.model.evidence import Evidence
 from floorplan_core.stages.askew_walls import (
     WallPatches,
+    WallsOnce,
     in_band,
     in_long_lines,
     over_cells,
     quarter,
-    walls_of,
 )
 from floorplan_core.stages.manhattan_frame import refined_direction, strongest_direction, turned_by
 
@@ -70,14 +70,16 @@ class Part:
     apart: bool = False  # True: a building by itself on a site of several (stages.islands)
 
 
-def find_wings(evidence: Evidence, config: FrameConfig) -> tuple[WingFloor, ...]:
+def find_wings(
+    evidence: Evidence, config: FrameConfig, patches: WallsOnce | None = None
+) -> tuple[WingFloor, ...]:
     """The wings, that with most wall first; ``evidence`` is in the frame of the building.
 
     Each is looked for in what those before it left: two wings at two angles do not blur each other.
     """
     found: list[WingFloor] = []
-    rest = evidence
-    while len(found) < MOST_WINGS and (wing := find_wing(rest, config)) is not None:
+    rest, patches = evidence, patches or WallsOnce(config)
+    while len(found) < MOST_WINGS and (wing := find_wing(rest, patches(rest), config)) is not None:
         found.append(wing)
         rest = _without(rest, wing.cells)
     return tuple(found)
@@ -96,9 +98,8 @@ def _without(evidence: Evidence, cells: Mask) -> Evidence:
     )
 
 
-def find_wing(evidence: Evidence, config: FrameConfig) -> WingFloor | None:
-    """The wing, if there is one; ``evidence`` is in the frame of the building."""
-    walls = walls_of(evidence, config)
+def find_wing(evidence: Evidence, walls: WallPatches, config: FrameConfig) -> WingFloor | None:
+    """The wing, if there is one; ``evidence``, which has these ``walls``, is in the frame of the building."""
     lines = in_long_lines(walls, walls.askew)
     rooms = None
     for turn in _directions(walls, lines):
