@@ -117,7 +117,7 @@ class VoxelConfig(Section):
         None,
         "MB",
         "What the map of a survey may take in memory; more goes to temporary files, and the plan stays the "
-        "same. None: half of what is free.",
+        "same. None: half of what is free, and no more than 1000.",
         ge=4,
         le=1e7,
     )

@@ -33,6 +33,7 @@ Float = NDArray[np.float64]
 
 MOST_RESERVED = 2_000_000  # surfels for which room is made in advance: 90 MB
 _SHARE = 0.5  # of free memory that surfels may take; the plan needs about as much again
+_MOST = 1e9  # bytes of it: from there on a disk costs less CPU than it saves memory (decision 34)
 _RAYS = 0.25  # of the same for the ray counts of all threads: a quarter of what surfels take
 FILE_RAYS = 3  # that a voxel counts for which the file says is free: a lone hit in it does not fill it
 SAMPLE_SURFELS = 250_000  # that the frame is estimated from
@@ -215,7 +216,7 @@ class SurveyMap:
 
     def _no_rays(self, size: float) -> MissMap:
         """Ray counts to begin with; each thread has its own, and they are added up."""
-        return MissMap(size, None if self._room is None else _RAYS * self._room / (HELPERS + 1))
+        return MissMap(size, _RAYS * self._room / (HELPERS + 1))
 
     def _prepared(self, points: Points, scan: NDArray[np.int32], origins: Float) -> Scan:
         """The scan in the frame of the map, with a voxel map subdivided and a planar scan lifted."""
@@ -233,12 +234,12 @@ class SurveyMap:
         )
 
 
-def _room(config: VoxelConfig) -> float | None:
-    """Bytes that the surfels may take in memory; None: all there is."""
+def _room(config: VoxelConfig) -> float:
+    """Bytes that the surfels may take in memory."""
     if config.memory is not None:
         return config.memory * 1e6
     free = free_memory()
-    return None if free is None else _SHARE * free
+    return _MOST if free is None else min(_SHARE * free, _MOST)
 
 
 def _count(scans: list[Scan]) -> int:

@@ -86,9 +86,9 @@ def make_plan(points: Path, out: Path, config: Config, observer: Observer) -> tu
 
 def other_labels(plan: FloorPlan, config: Config) -> dict[str, str]:
     """Each region's label by the other classifier."""
-    from floorplan_core.plugins import find_classifier
+    from floorplan_core.plugins import default_registry
 
-    other = find_classifier(OTHER_CLASSIFIER)
+    other = default_registry().classifier(OTHER_CLASSIFIER)
     return {r.id: other.classify(r, plan.regions, config) for r in plan.regions}
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from floorcast_plugins.shape_classifier import ShapeClassifier, betweenness, circulation, typical_width
 from floorplan_core.config import Config
 from floorplan_core.model import Region
-from floorplan_core.plugins import find_classifier
+from floorplan_core.plugins import default_registry
 from floorplan_core.stages.labels import PaperClassifier, label_regions
 
 CONFIG = Config()
@@ -93,4 +93,4 @@ def test_more_doors_and_more_ways_never_speak_for_a_room() -> None:
 
 
 def test_found_by_name() -> None:
-    assert find_classifier("shape").name == "shape"
+    assert default_registry().classifier("shape").name == "shape"
