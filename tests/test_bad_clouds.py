@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -230,6 +230,9 @@ def test_any_floats_give_a_plan_or_a_sentence(points):
     boxes=st.integers(0, 6),
     trajectory=st.booleans(),
 )
+@example(seed=0, scale=3.0, flat=[0.0, 0.001, 1.0], boxes=0, trajectory=False)  # tall, no planar cell
+@example(seed=0, scale=0.5, flat=[0.0, 1.0, 1.0], boxes=0, trajectory=True)  # no walls above 1 m
+@example(seed=4, scale=0.5, flat=[0.0, 0.0, 0.0], boxes=5, trajectory=True)  # nothing level
 def test_random_clouds_and_boxes_give_a_plan_or_a_sentence(seed, scale, flat, boxes, trajectory):
     """Points in squashed clouds and on the faces of random boxes: whatever comes out comes out cleanly."""
     rng = np.random.default_rng(seed)

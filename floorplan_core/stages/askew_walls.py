@@ -112,6 +112,9 @@ def _strips(xyz: Float, rows: Mask, width: float) -> NDArray[np.uint16]:
 
 def _patches_of(xyz: Float, surfel: float, config: FrameConfig) -> WallPatches:
     """Those of all of the surfels."""
+    if len(xyz) == 0:
+        none = np.zeros(0)
+        return WallPatches(np.zeros((0, 2)), np.zeros((0, 2)), none, none, config.cell, np.zeros((0, 2)))
     best, width = fit_cell_normals(xyz, config.cell, config.planarity, most=len(xyz)), config.cell
     while width < _WIDEST * config.cell:
         wider = fit_cell_normals(xyz, _WIDER * width, config.planarity, most=len(xyz))

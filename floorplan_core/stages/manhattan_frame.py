@@ -166,6 +166,8 @@ def _square_to_floor(normals: CellNormals, up: Float) -> Float:
     and the mean of their normals is some tenths of a degree off; the floor as a whole is not."""
     for reach in _LEVEL_REACHES:
         flat = np.abs(normals.normal @ up) > math.cos(math.radians(10))
+        if not flat.any():  # the mean of slopes that all lean away from it
+            break
         centre, weight = normals.centre[flat], normals.weight[flat]
         height = centre @ up
         bins = np.floor((height - height.min()) / reach).astype(np.int64)

@@ -63,8 +63,8 @@ def find_storeys(surfels: Surfels, frame: ManhattanFrame, config: StoreysConfig)
     if not is_tall(surfels, frame, config):
         return (only,)
     raster = _Raster.of(surfels, frame)
-    slabs = _slabs(raster, config)
-    if not slabs:
+    slabs = [] if raster is None else _slabs(raster, config)
+    if raster is None or not slabs:
         return (only,)
     xyz = surfels.centroid @ frame.rotation.T
     plain = _between(slabs, only, raster)
@@ -142,15 +142,17 @@ class _Raster:
     wall_z: Float  # (W,)
 
     @staticmethod
-    def of(surfels: Surfels, frame: ManhattanFrame) -> _Raster:
+    def of(surfels: Surfels, frame: ManhattanFrame) -> _Raster | None:
         """From the planar cells of the survey, once more with cells half a cell higher: where both faces
-        of a thin slab lie in one cell, it is not planar, and the next cell up parts them."""
+        of a thin slab lie in one cell, it is not planar, and the next cell up parts them. None without any."""
         patches = []
         for lift in (np.zeros(3), np.array([0.0, 0.0, _PATCH / 2])):
             found = fit_cell_normals(surfels.centroid + lift, _PATCH, _PLANARITY, most=len(surfels))
             patches.append((found.normal @ frame.rotation[2], (found.centre - lift) @ frame.rotation.T))
         upright = np.abs(np.concatenate([p[0] for p in patches]))
         xyz = np.concatenate([p[1] for p in patches])
+        if len(xyz) == 0:
+            return None
         origin = np.floor(xyz[:, :2].min(axis=0) / _COLUMN) * _COLUMN
         index = ((xyz[:, :2] - origin) / _COLUMN).astype(np.int64)
         nx, ny = (int(n) + 1 for n in index.max(axis=0))
