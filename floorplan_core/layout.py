@@ -85,8 +85,9 @@ def lay_out(
         lambda: find_planes(segments, rows, evidence, parts, config.doors),
         *(segments, rows, evidence, parts, config.doors),
     )
+    widest = wide.max_opening if evidence.viewpoints else 0.0  # else nobody knows what was hidden
     planes = stage(
-        "planes", lambda: close_corners(remove_beams(planes, *beams), wide.max_opening), planes, beams
+        "planes", lambda: close_corners(remove_beams(planes, *beams), widest), planes, beams, widest
     )
     around = stage.correct("viewpoints", lambda: looked_around(evidence), evidence)
     machine = stage(

@@ -47,9 +47,13 @@ def share_enclosed(points: NDArray[Any], spacing: float) -> float:
 
 
 def subdivide(points: NDArray[Any], spacing: float, finest: float) -> NDArray[np.float64]:
-    """(k N, 3) each voxel's centre replaced by the centres of its parts, none larger than ``finest``."""
+    """(k N, 3) each voxel's centre replaced by the centres of its parts, none larger than ``finest``.
+
+    Many parts lie on borders of the finer voxels, exactly; the centres are rounded to float32, so that each
+    layer falls to one side or the other (decision 21: any one side for all of them is worse).
+    """
     parts = max(1, int(np.ceil(spacing / finest - 1e-6)))
     offset = ((np.arange(parts) + 0.5) / parts - 0.5) * spacing
     shifts = np.array(list(product(offset, offset, offset)))
-    centres: NDArray[np.float64] = points[:, None, :].astype(np.float64) + shifts[None]
+    centres: NDArray[np.float64] = points[:, None, :].astype(np.float32).astype(np.float64) + shifts[None]
     return centres.reshape(-1, 3)

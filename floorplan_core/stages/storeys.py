@@ -144,7 +144,7 @@ class _Raster:
     @staticmethod
     def of(surfels: Surfels, frame: ManhattanFrame) -> _Raster | None:
         """From the planar cells of the survey, once more with cells half a cell higher: where both faces
-        of a thin slab lie in one cell, it is not planar, and the next cell up parts them. None without any."""
+        of a thin slab lie in one cell, it is not planar, and the next cell up parts them. None without."""
         patches = []
         for lift in (np.zeros(3), np.array([0.0, 0.0, _PATCH / 2])):
             found = fit_cell_normals(surfels.centroid + lift, _PATCH, _PLANARITY, most=len(surfels))
