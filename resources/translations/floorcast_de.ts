@@ -3844,8 +3844,8 @@
    <translation>Was das Lasermessgerät sagte: doppelklicken und eingeben, etwa 3,2 oder 320 cm oder 10' 6"</translation>
   </message>
   <message>
-   <source>What the map of a survey may take in memory; more goes to temporary files, and the plan stays the same. None: half of what is free.</source>
-   <translation>Was die Karte einer Aufnahme im Arbeitsspeicher belegen darf; mehr kommt in temporäre Dateien, und der Plan bleibt derselbe. Keine Angabe: die Hälfte dessen, was frei ist.</translation>
+   <source>What the map of a survey may take in memory; more goes to temporary files, and the plan stays the same. None: half of what is free, and no more than 1000.</source>
+   <translation>Was die Karte einer Aufnahme im Arbeitsspeicher belegen darf; mehr kommt in temporäre Dateien, und der Plan bleibt derselbe. Keine Angabe: die Hälfte dessen, was frei ist, und nicht mehr als 1000.</translation>
   </message>
   <message>
    <source>What the map of a survey may take, of surveys opened from now on; more goes to temporary files.</source>
