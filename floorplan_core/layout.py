@@ -43,7 +43,7 @@ from floorplan_core.stages.regions import build_regions
 from floorplan_core.stages.set_cover import cover as cover_free_space
 from floorplan_core.stages.slanted_walls import standing_cells
 from floorplan_core.stages.speculation import cover_the_rest, for_site
-from floorplan_core.stages.stairs import apart_from_stairs, find_flights, openings
+from floorplan_core.stages.stairs import Flight, apart_from_stairs, find_flights, openings
 from floorplan_core.stages.wall_lines import bridge_lines
 from floorplan_core.steps import StageRunner
 
@@ -62,6 +62,25 @@ class Layout:
     remarks: Remarks
 
 
+@dataclass(frozen=True)
+class _Walls:
+    """What bounds the rooms."""
+
+    segments: tuple[LayoutSegment, ...]
+    machine: tuple[LayoutPlane, ...]  # planes as they were found
+    planes: tuple[LayoutPlane, ...]  # as a person said that they are
+    around: Evidence  # with the free space that a person standing there would see
+    said: Remarks
+
+
+@dataclass(frozen=True)
+class _Stairs:
+    """Flights of stairs, and the doors at their feet."""
+
+    feet: tuple[Door, ...]
+    flights: tuple[Flight, ...]
+
+
 def lay_out(
     evidence: Evidence,
     config: Config,
@@ -75,15 +94,46 @@ def lay_out(
     :param say: what a person said against the machine, in this frame.
     :param cells: (ny, nx) where the free space is that regions are to explain; None: everywhere.
     """
+    walls = _find_walls(evidence, config, stage, say)
+    doors, planes, stairs, remarks = _find_doors(walls, evidence, config, stage, say)
+    said = walls.said + remarks
+    grid = stage(
+        "occupancy",
+        lambda: _within(slice_map(walls.around, planes, doors, config.occupancy), cells),
+        *(walls.around, planes, doors, config.occupancy),
+    )
+    candidates, planes, cover = _cover_floor(planes, doors, grid, config, stage, observer)
+    doors = (*doors, *stairs.feet)
+    found = (planes, walls.segments, doors, grid)
+    quarters = quarters_to_world(evidence.frame)
+    tall = stage.correct("standing", lambda: standing_cells(evidence, grid), evidence, grid)
+    regions = stage(
+        "regions",
+        lambda: in_reading_order(
+            build_regions(cover, *found, config.regions, stairs.flights, evidence.inferred, tall), quarters
+        ),
+        *(cover, *found, config.regions, stairs.flights, evidence.inferred, tall),
+    )
+    regions, planes, remarks = stage.correct(
+        "shapes",
+        lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
+        *(regions, say.shapes, *found, config.regions),
+    )
+    regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
+    return Layout(walls.segments, planes, doors, grid, candidates, cover, regions, said + remarks)
+
+
+def _find_walls(evidence: Evidence, config: Config, stage: StageRunner, say: Said) -> _Walls:
+    """Segments and planes, and what a person made of the planes."""
+    parts, wide = config.planes, config.doors
     segments, rows = stage(
         "segments", lambda: find_segments(evidence, config.segments), evidence, config.segments
     )
-    parts, wide = config.planes, config.doors
     beams = wide.max_beamless, wide.lintel_depth, wide.max_opening
     segments, planes = stage(
         "planes",
-        lambda: find_planes(segments, rows, evidence, parts, config.doors),
-        *(segments, rows, evidence, parts, config.doors),
+        lambda: find_planes(segments, rows, evidence, parts, wide),
+        *(segments, rows, evidence, parts, wide),
     )
     widest = wide.max_opening if evidence.viewpoints else 0.0  # else nobody knows what was hidden
     planes = stage(
@@ -92,16 +142,23 @@ def lay_out(
     around = stage.correct("viewpoints", lambda: looked_around(evidence), evidence)
     machine = stage(
         "planes",
-        lambda: mark_recesses(_bridged(planes, evidence, around, config.doors), parts),
-        *(planes, evidence, around, config.doors, parts),
+        lambda: mark_recesses(_bridged(planes, evidence, around, wide), parts),
+        *(planes, evidence, around, wide, parts),
     )
     planes, said = stage.correct("walls", lambda: correct_walls(machine, say.walls), machine, say.walls)
+    return _Walls(segments, machine, planes, around, said)
 
-    seen = still_walls(machine, planes)
+
+def _find_doors(
+    walls: _Walls, evidence: Evidence, config: Config, stage: StageRunner, say: Said
+) -> tuple[tuple[Door, ...], tuple[LayoutPlane, ...], _Stairs, Remarks]:
+    """The doors but those at the feet of stairs, the planes that they are cut into, the stairs, and what came
+    of the corrections."""
+    seen, machine, planes = still_walls(walls.machine, walls.planes), walls.machine, walls.planes
     doors = stage(
         "doors",
-        lambda: find_openings(seen, evidence, around, config.doors),
-        *(seen, evidence, around, config.doors),
+        lambda: find_openings(seen, evidence, walls.around, config.doors),
+        *(seen, evidence, walls.around, config.doors),
     )
     flights = stage.correct("stairs", lambda: find_flights(evidence), evidence)
     doors = (*doors, *openings(flights, doors))
@@ -110,18 +167,24 @@ def lay_out(
         lambda: _corrected_doors(doors, planes, machine, say.doors, evidence, config.doors),
         *(doors, planes, machine, say.doors, evidence, config.doors),
     )
-    said += remarks
     doors, feet, flights = apart_from_stairs(doors, flights)
     planes = stage.correct(
         "stubs", lambda: close_beside_doors(planes, doors, evidence.inferred), planes, doors, evidence
     )
-    grid = stage(
-        "occupancy",
-        lambda: _within(slice_map(around, planes, doors, config.occupancy), cells),
-        *(around, planes, doors, config.occupancy),
-    )
-    walls, paired = blockers(planes, doors), pairable(planes, parts)
-    layout = (planes, doors, grid, parts, config.candidates)
+    return doors, planes, _Stairs(feet, flights), remarks
+
+
+def _cover_floor(
+    planes: tuple[LayoutPlane, ...],
+    doors: tuple[Door, ...],
+    grid: OccupancyGrid,
+    config: Config,
+    stage: StageRunner,
+    observer: Observer,
+) -> tuple[CandidateSet, tuple[LayoutPlane, ...], RectangleCover]:
+    """The candidates, the planes with those speculated that were needed, and the cover of the free space."""
+    walls, paired = blockers(planes, doors), pairable(planes, config.planes)
+    layout = (planes, doors, grid, config.planes, config.candidates)
     on_site = for_site(config.candidates, grid)
     candidates = stage("candidates", lambda: pair_planes(paired, walls, grid, on_site, observer), *layout)
     cover = stage(
@@ -134,24 +197,7 @@ def lay_out(
         lambda: cover_the_rest(planes, paired, walls, cover, grid, config),
         *(cover, config.cover, *layout),
     )
-    doors = (*doors, *feet)
-    found = (planes, segments, doors, grid)
-    quarters = quarters_to_world(evidence.frame)
-    tall = stage.correct("standing", lambda: standing_cells(evidence, grid), evidence, grid)
-    regions = stage(
-        "regions",
-        lambda: in_reading_order(
-            build_regions(cover, *found, config.regions, flights, evidence.inferred, tall), quarters
-        ),
-        *(cover, *found, config.regions, flights, evidence.inferred, tall),
-    )
-    regions, planes, remarks = stage.correct(
-        "shapes",
-        lambda: correct_shapes(regions, say.shapes, Surroundings(*found), config.regions),
-        *(regions, say.shapes, *found, config.regions),
-    )
-    regions = stage("regions", lambda: measure_heights(regions, evidence, grid), regions, evidence, grid)
-    return Layout(segments, planes, doors, grid, candidates, cover, regions, said + remarks)
+    return candidates, planes, cover
 
 
 def _bridged(
