@@ -37,7 +37,6 @@ from floorplan_core.model import (
 )
 from floorplan_core.stages.rectangle_groups import connected_groups, separators
 from floorplan_core.stages.region_confidence import measures_of, probability
-from floorplan_core.stages.region_names import in_reading_order
 from floorplan_core.stages.region_sides import WallSurfaces, sides_of
 from floorplan_core.stages.room_growth import RoomGrower
 from floorplan_core.stages.room_splits import RoomSplitter
@@ -65,7 +64,7 @@ def build_regions(
     inferred: bool = False,
     tall: StandingCells | None = None,
 ) -> tuple[Region, ...]:
-    """The regions in reading order (top to bottom, left to right), without label or turning distance.
+    """The regions, without name, label or turning distance.
 
     :param flights: of stairs, each a region of its own.
     :param inferred: True where free space was not seen, but inferred from floor and ceiling.
@@ -103,7 +102,7 @@ def build_regions(
         for polygon, rows, steps in whole
     ]
     kept = [r for r in regions if _acceptable(r, config)]
-    return in_reading_order(kept)
+    return tuple(kept)
 
 
 def _bounded(shape: Any, tall: StandingCells | None, sliver: float) -> tuple[Any, StandingCells | None]:
